@@ -1,0 +1,31 @@
+# posed_library(NAME PUBLIC libs... PRIVATE libs...): one static library a folder, made of its *.cpp. The link lists are the
+# architecture: see ARCHITECTURE.md and tests/layering_test.py. posed_program and posed_test are the same for programs.
+
+add_library(posed_flags INTERFACE)
+target_compile_options(posed_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
+if(POSED_WERROR)
+  target_compile_options(posed_flags INTERFACE -Werror)
+endif()
+if(POSED_SANITIZE)
+  target_compile_options(posed_flags INTERFACE -fsanitize=${POSED_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(posed_flags INTERFACE -fsanitize=${POSED_SANITIZE})
+endif()
+
+find_program(CCACHE ccache)
+if(CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
+endif()
+
+function(posed_library name)
+  cmake_parse_arguments(arg "" "" "PUBLIC;PRIVATE" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS *.cpp */*.cpp)
+  add_library(posed_${name} STATIC ${sources})
+  target_include_directories(posed_${name} PUBLIC ${CMAKE_SOURCE_DIR})
+  target_link_libraries(posed_${name} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE} posed_flags)
+endfunction()
+
+function(posed_program name)
+  file(GLOB sources CONFIGURE_DEPENDS *.cpp)
+  add_executable(${name} ${sources})
+  target_link_libraries(${name} PRIVATE ${ARGN} posed_flags)
+endfunction()
