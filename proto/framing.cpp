@@ -6,11 +6,18 @@ bool LineSplitter::push(std::string_view bytes) {
   buffer_.erase(0, begin_);
   scanned_ -= begin_;
   begin_ = 0;
+  // Only the first line of what is buffered can be unfinished from before; the others lie within `bytes`.
+  for (std::string_view left = bytes; !left.empty();) {
+    const std::size_t end = left.find('\n');
+    const std::string_view part = left.substr(0, end);
+    pending_ += part.size();
+    if (pending_ > max_line_) return false;
+    if (end == std::string_view::npos) break;
+    pending_ = 0;
+    left.remove_prefix(end + 1);
+  }
   buffer_.append(bytes);
-  // The limit is on a line, not on what one read happened to bring.
-  const std::size_t last_end = buffer_.rfind('\n');
-  const std::size_t tail = last_end == std::string::npos ? buffer_.size() : buffer_.size() - last_end - 1;
-  return tail <= max_line_;
+  return true;
 }
 
 std::optional<std::string_view> LineSplitter::next() {
@@ -23,7 +30,6 @@ std::optional<std::string_view> LineSplitter::next() {
     std::string_view line = std::string_view(buffer_).substr(begin_, end - begin_);
     begin_ = scanned_ = end + 1;
     if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-    if (line.size() > max_line_) continue;
     if (!line.empty()) return line;
   }
 }
