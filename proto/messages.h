@@ -1,0 +1,344 @@
+// Every message of PROTOCOL.md as a struct. What a field means, and its units, stands there.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "common/goal.h"
+#include "common/pose.h"
+#include "common/result.h"
+#include "common/scene.h"
+#include "common/time.h"
+
+namespace posed::proto {
+
+inline constexpr int kProtocol = 1;
+inline constexpr std::size_t kMaxLineBytes = 1 << 20;
+inline constexpr int kMaxDepth = 64;
+inline constexpr int kDefaultPort = 19870;
+
+// ---- requests ----------------------------------------------------------------------------------------------------
+
+struct Software {
+  std::string name, version;
+};
+
+struct SessionHello {
+  int protocol = kProtocol;
+  Software client;
+  std::string user;
+};
+struct SessionPing {};
+struct SessionStatus {};
+struct SessionList {};
+
+struct FigureSet {
+  std::string id;
+  Patched<std::string> template_name;
+  Patched<double> stature;
+  std::optional<FigureDocument> document;
+  Patched<std::string> label;
+  Patched<std::string> user;
+};
+struct FigureGet {
+  std::string id;
+};
+struct FigureList {};
+struct FigureRemove {
+  std::string id;
+};
+
+struct GoalSet {
+  GoalEdit edit;
+};
+struct GoalGet {
+  std::string id;
+};
+struct GoalList {};
+struct GoalRemove {
+  std::string id;
+};
+struct GoalClear {
+  std::string figure;  // empty: of all figures
+};
+
+struct BindingSet {
+  BindingEdit edit;
+};
+struct BindingGet {
+  std::string id;
+};
+struct BindingList {};
+struct BindingRemove {
+  std::string id;
+};
+
+struct JointSet {
+  std::string figure, joint;
+  std::vector<double> value;  // the joint's share of q; empty: halfplane, deviation, twist
+  std::optional<double> halfplane, deviation, twist;
+};
+struct JointGet {
+  std::string figure, joint;
+};
+
+struct PoseGet {
+  std::string figure;
+  std::optional<std::uint64_t> min_revision;
+  int wait_ms = 0;
+};
+struct PoseSet {
+  std::string figure;
+  std::vector<double> q;
+};
+struct PoseReset {
+  std::string figure;
+  std::string to = "rest";
+};
+struct PoseMirror {
+  std::string figure;
+};
+
+struct SolverGet {};
+struct SolverSet {
+  Patched<std::string> method;
+  Patched<int> iterations;
+  Patched<int> branch_iterations;
+};
+
+struct SceneGet {};
+struct SceneNew {
+  std::string template_name = "standing";
+};
+struct SceneList {};
+struct SceneSave {
+  std::string name;
+};
+struct SceneOpen {
+  std::string name;
+};
+
+struct TrackerList {};
+
+enum class Stream { pose, tracker, scene, stats };
+inline constexpr int kStreams = 4;
+
+struct StreamSubscribe {
+  Stream stream = Stream::pose;
+  std::vector<std::string> figures;  // pose; empty: all
+  std::vector<std::string> fields;   // pose; empty: all
+  double max_rate_hz = 0.0;          // 0: no cap
+  int credit = 0;                    // 0: no credit wanted
+};
+struct StreamUnsubscribe {
+  Stream stream = Stream::pose;
+};
+struct StreamAck {
+  Stream stream = Stream::pose;
+  std::uint64_t seq = 0;
+};
+
+using Params =
+    std::variant<SessionHello, SessionPing, SessionStatus, SessionList, FigureSet, FigureGet, FigureList, FigureRemove,
+                 GoalSet, GoalGet, GoalList, GoalRemove, GoalClear, BindingSet, BindingGet, BindingList, BindingRemove,
+                 JointSet, JointGet, PoseGet, PoseSet, PoseReset, PoseMirror, SolverGet, SolverSet, SceneGet, SceneNew,
+                 SceneList, SceneSave, SceneOpen, TrackerList, StreamSubscribe, StreamUnsubscribe, StreamAck>;
+
+struct Request {
+  std::string id;  // JSON text of the id; empty: a notification, which gets no reply
+  std::optional<std::uint64_t> if_revision;  // edits only
+  Params params;
+};
+
+// What could not be read as a request, and what to answer. Always answered, even without an id ("null").
+struct BadRequest {
+  std::string id;
+  Error error;
+};
+
+// One line from a peer.
+struct Line {
+  bool batch = false;
+  std::vector<std::variant<Request, BadRequest>> entries;
+};
+
+// ---- results -----------------------------------------------------------------------------------------------------
+
+struct HelloResult {
+  Software daemon;
+  std::string session, boot;
+  std::vector<std::string> features;
+  Nanoseconds t_ns = 0, utc_ns = 0;
+};
+struct PingResult {
+  Nanoseconds receive_t_ns = 0, send_t_ns = 0;
+};
+struct StatusResult {
+  Software daemon;
+  Nanoseconds t_ns = 0;
+  std::uint64_t revision = 0;
+  std::string method;
+  int connections = 0;
+  std::vector<std::string> figures;
+  int goals = 0, bindings = 0, trackers = 0;
+  std::uint64_t frames = 0, solves = 0;
+  double last_solve_us = 0.0;
+};
+struct SessionEntry {
+  std::string session, address, face, user;
+  Software client;
+};
+struct SessionListResult {
+  std::vector<SessionEntry> sessions;
+};
+
+struct EditResult {
+  std::string id;
+  std::uint64_t revision = 0, entity_revision = 0;
+};
+struct ClearResult {
+  int removed = 0;
+  std::uint64_t revision = 0;
+};
+struct RevisionResult {
+  std::uint64_t revision = 0;
+};
+struct EmptyResult {};
+
+struct QEntry {
+  std::string joint;
+  JointType type = JointType::ball;
+  int at = 0, size = 0;
+};
+struct FigureResult {
+  FigureEntry entry;        // without q
+  FigureDocument document;  // of the template too
+  std::uint64_t entity_revision = 0;
+  std::vector<QEntry> q_layout;
+};
+struct FigureSummary {
+  std::string id, template_name;
+  double stature = 0.0;
+  int segments = 0;
+  std::uint64_t entity_revision = 0;
+};
+struct FigureListResult {
+  std::vector<FigureSummary> figures;
+};
+struct GoalResult {
+  Goal goal;
+  std::uint64_t entity_revision = 0;
+};
+struct GoalListResult {
+  std::vector<GoalResult> goals;
+};
+struct BindingResult {
+  Binding binding;
+  std::uint64_t entity_revision = 0;
+};
+struct BindingListResult {
+  std::vector<BindingResult> bindings;
+};
+struct JointResult {
+  std::string figure, joint;
+  JointType type = JointType::ball;
+  std::vector<double> value;
+  std::optional<double> halfplane, deviation, twist;  // where the joint rotates
+};
+
+// A goal's report with the ids spelled out.
+struct GoalFrame {
+  std::string id;
+  Vec3 touch{0.0, 0.0, 0.0}, target{0.0, 0.0, 0.0};
+  double error = 0.0;
+  Vec3 force{0.0, 0.0, 0.0};
+  GoalState state = GoalState::off;
+  struct Because {
+    std::string goal;  // empty: beyond_m
+    double beyond_m = 0.0;
+  };
+  std::vector<Because> causes;
+};
+struct FigurePose {
+  std::string figure;
+  std::vector<Transform> world_from_segment;
+  std::vector<double> q;
+  std::vector<GoalFrame> goals;
+  double cost = 0.0;
+  SolveStatus status = SolveStatus::converged;
+  bool branch_changed = false;
+};
+struct PoseResult {
+  FigurePose pose;
+  Nanoseconds t_ns = 0;
+  std::uint64_t revision = 0;
+  int iterations = 0, chain_solves = 0;
+  std::string method;
+  std::vector<std::string> notes;
+  double balance_error = 0.0, solve_us = 0.0;
+};
+struct SolverResult {
+  std::string method;
+  int iterations = 0, branch_iterations = 0;
+};
+struct SceneResult {
+  std::uint64_t revision = 0;
+  SceneDocument document;
+};
+struct SceneListResult {
+  std::vector<std::string> saved, templates;
+};
+struct TrackerEntry {
+  std::string tracker, kind, state, message;
+  double rate_hz = 0.0;
+  std::uint64_t frames = 0, bad_bytes = 0;
+  std::vector<std::string> sensors;
+};
+struct TrackerListResult {
+  std::vector<TrackerEntry> trackers;
+};
+struct SubscribeResult {
+  Stream stream = Stream::pose;
+};
+
+// ---- what streams carry ------------------------------------------------------------------------------------------
+
+struct PoseFields {
+  bool world_from_segment = true, q = true, goals = true;
+  bool operator<(const PoseFields& o) const {
+    return std::tie(world_from_segment, q, goals) < std::tie(o.world_from_segment, o.q, o.goals);
+  }
+  bool operator==(const PoseFields&) const = default;
+};
+struct PoseData {
+  Nanoseconds t_ns = 0;
+  std::uint64_t revision = 0;
+  std::vector<FigurePose> figures;
+};
+struct SensorData {
+  std::string sensor;
+  Vec3 position{0.0, 0.0, 0.0};
+  Quat rotation{1.0, 0.0, 0.0, 0.0};
+  std::uint32_t buttons = 0;
+  std::vector<std::string> flags;
+  std::uint32_t device_count = 0;
+  Nanoseconds device_t_ns = 0;
+};
+struct TrackerData {
+  Nanoseconds t_ns = 0;
+  std::string device;
+  std::vector<SensorData> sensors;
+};
+struct StatsData {
+  Nanoseconds t_ns = 0;
+  std::uint64_t frames = 0, solves = 0;
+  double solve_us = 0.0;           // median of the last second
+  double sample_to_send_us = 0.0;  // median of the last second, from the bytes' arrival to the encoded line
+  int connections = 0;
+  std::uint64_t dropped = 0;
+};
+
+}  // namespace posed::proto
