@@ -3,7 +3,7 @@
 namespace posed::net {
 
 Detected detect(std::string_view first_bytes) {
-  constexpr std::string_view kMethods[] = {"GET ",    "HEAD ",  "POST ",    "PUT ",  "DELETE ",
+  constexpr std::string_view kMethods[] = {"GET ",     "HEAD ",  "POST ",    "PUT ",  "DELETE ",
                                            "OPTIONS ", "PATCH ", "CONNECT ", "TRACE "};
   for (const std::string_view method : kMethods) {
     if (first_bytes.substr(0, method.size()) == method) return Detected::http;

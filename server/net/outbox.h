@@ -32,6 +32,7 @@ class Outbox {
 
   // How replies and frames are put on the wire from now on.
   void set_framing(Framing framing) { framing_ = framing; }
+  Framing framing() const { return framing_; }
 
   // False if the cap is reached: the line was not taken.
   [[nodiscard]] bool reply(SharedLine line);
@@ -61,11 +62,11 @@ class Outbox {
  private:
   struct Slot {
     Subscription subscription;
-    Nanoseconds period = 0;     // 0: no cap
+    Nanoseconds period = 0;  // 0: no cap
     Nanoseconds next_due = 0;
-    SharedLine newest;          // null: sent
-    std::uint64_t seq = 0;      // of newest
-    std::uint64_t lost = 0;     // not yet told
+    SharedLine newest;                   // null: sent
+    std::uint64_t seq = 0;               // of newest
+    std::uint64_t lost = 0;              // not yet told
     std::vector<std::uint64_t> unacked;  // ascending; kept only with credit
 
     bool has_credit() const;

@@ -17,12 +17,12 @@ namespace posed::net {
 
 struct Limits {
   std::size_t connections = 10'000;
-  std::size_t unanswered = 256;            // lines of one peer; further ones stay unread until some are answered
-  std::size_t unread_bytes = 256 << 10;    // of replies to one peer; with more nothing is read from it
-  std::size_t replies = 10'000;            // queued for one peer; with more it is told so and closed
-  std::size_t reply_bytes = 4 << 20;       // the same, in bytes
+  std::size_t unanswered = 256;          // lines of one peer; further ones stay unread until some are answered
+  std::size_t unread_bytes = 256 << 10;  // of replies to one peer; with more nothing is read from it
+  std::size_t replies = 10'000;          // queued for one peer; with more it is told so and closed
+  std::size_t reply_bytes = 4 << 20;     // the same, in bytes
   std::size_t line_bytes = proto::kMaxLineBytes;
-  int subscriber_send_buffer = 64 << 10;   // bytes; what the kernel holds for a subscriber is the past
+  int subscriber_send_buffer = 64 << 10;      // bytes; what the kernel holds for a subscriber is the past
   Nanoseconds http_request = 10'000'000'000;  // from the first byte of a request to the end of its header
   Nanoseconds http_reply = 60'000'000'000;    // to take one reply, or between two requests
   Nanoseconds farewell = 2'000'000'000;       // to read the last words of a connection that we close

@@ -9,7 +9,7 @@
 
 namespace posed::net {
 
-using ConnectionId = std::uint64_t;                      // never used again within one run
+using ConnectionId = std::uint64_t;                     // never used again within one run
 using SharedLine = std::shared_ptr<const std::string>;  // encoded once, without its newline, shared by all receivers
 
 // A subscription as it was granted. Those with equal stream and key get the same lines.

@@ -19,17 +19,21 @@ struct Counters {
 
 struct Tally {
   using Count = std::atomic<std::uint64_t>;
-  Count connections{0}, peers{0}, accepted{0}, refused{0}, lines{0}, replies{0}, http_requests{0}, frames{0}, dropped{0},
-      thinned{0}, bytes_in{0}, bytes_out{0};
+  Count connections{0}, peers{0}, accepted{0}, refused{0}, lines{0}, replies{0}, http_requests{0}, frames{0},
+      dropped{0}, thinned{0}, bytes_in{0}, bytes_out{0};
 
   Counters read() const {
     const auto get = [](const Count& count) { return count.load(std::memory_order_relaxed); };
-    return {get(connections), get(peers),  get(accepted), get(refused), get(lines),    get(replies),
+    return {get(connections),   get(peers),  get(accepted), get(refused), get(lines),    get(replies),
             get(http_requests), get(frames), get(dropped),  get(thinned), get(bytes_in), get(bytes_out)};
   }
 };
 
-inline void add(Tally::Count& count, std::uint64_t n = 1) { count.fetch_add(n, std::memory_order_relaxed); }
-inline void subtract(Tally::Count& count) { count.fetch_sub(1, std::memory_order_relaxed); }
+inline void add(Tally::Count& count, std::uint64_t n = 1) {
+  count.fetch_add(n, std::memory_order_relaxed);
+}
+inline void subtract(Tally::Count& count) {
+  count.fetch_sub(1, std::memory_order_relaxed);
+}
 
 }  // namespace posed::net

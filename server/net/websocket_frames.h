@@ -50,8 +50,8 @@ class FrameReader {
 
   std::size_t max_message_;
   std::string buffer_;
-  std::size_t begin_ = 0;      // of the frame that is looked at
-  std::string fragments_;      // of the message that is under way
+  std::size_t begin_ = 0;       // of the frame that is looked at
+  std::string fragments_;       // of the message that is under way
   std::optional<Opcode> kind_;  // of that message
   std::uint16_t error_ = 0;
 };
