@@ -1,5 +1,6 @@
 # shellcheck shell=bash
-# run_step: one step of deploy/test from its headline to its row in the table. Wants $logs.
+# run_step: one step of deploy/test from its headline to its row in the table. The logs go to the folder $logs.
+logs=${logs:-build/test-logs}
 
 # run_step STEP WHICH [FILTER]
 run_step() {
