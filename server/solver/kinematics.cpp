@@ -1,0 +1,61 @@
+#include "server/solver/kinematics.h"
+
+#include <cassert>
+
+#include "server/solver/figure_check.h"
+
+namespace posed {
+
+Transform joint_motion(const Joint& joint, std::span<const double> share) {
+  switch (joint.type) {
+    case JointType::ball:
+    case JointType::universal: return {kZero, quat_from_xyzw(share)};
+    case JointType::hinge: return {kZero, quat_about(joint.axes[0], share[0])};
+    case JointType::prismatic: return {joint.axes[0] * share[0], quat_identity()};
+    case JointType::free:
+    case JointType::fixed: break;
+  }
+  return {};
+}
+
+Transform place_segment(const BodyTree& tree, int i, std::span<const double> q, const Transform& world_from_parent) {
+  const Joint& joint = tree.joint(i);
+  const auto share = q.subspan(static_cast<std::size_t>(tree.q_at(i)), static_cast<std::size_t>(q_size(joint.type)));
+  if (joint.type == JointType::free) return {{share[0], share[1], share[2]}, quat_from_xyzw(share.subspan(3))};
+  const Transform parent_from_segment = joint.parent_from_joint * joint_motion(joint, share);
+  return i == 0 ? parent_from_segment : world_from_parent * parent_from_segment;
+}
+
+void forward_kinematics(const BodyTree& tree, std::span<const double> q, std::span<Transform> world_from_segment) {
+  assert(static_cast<int>(q.size()) == tree.q_size());
+  assert(static_cast<int>(world_from_segment.size()) == tree.size());
+  for (int i = 0; i < tree.size(); ++i) {
+    const Transform parent = i == 0 ? Transform{} : world_from_segment[static_cast<std::size_t>(tree.parent(i))];
+    world_from_segment[static_cast<std::size_t>(i)] = place_segment(tree, i, q, parent);
+  }
+}
+
+Status check_q(const BodyTree& tree, std::span<const double> q) {
+  if (static_cast<int>(q.size()) != tree.q_size()) {
+    return Error{"invalid_params", "q has " + std::to_string(q.size()) + " values", "",
+                 "this figure has " + std::to_string(tree.q_size()) + ": see q_layout in figure.get"};
+  }
+  for (std::size_t k = 0; k < q.size(); ++k) {
+    if (!finite(q[k])) return Error{"not_finite", "a value of q is not finite", "/" + std::to_string(k), "give a number"};
+    if (std::abs(q[k]) > 1e6) {
+      return Error{"out_of_range", "a value of q is beyond 1e6", "/" + std::to_string(k), "give metres and radians"};
+    }
+  }
+  for (int i = 0; i < tree.size(); ++i) {
+    const int size = q_size(tree.joint(i).type);
+    if (size < 4) continue;
+    const auto k = static_cast<std::size_t>(tree.q_at(i) + size - 4);
+    if (std::abs(glm::length(quat_from_xyzw(q.subspan(k, 4))) - 1.0) > kUnitTolerance) {
+      return Error{"out_of_range", "the quaternion of joint " + tree.joint(i).name + " is not of unit length",
+                   "/" + std::to_string(k), "divide it by its length; no rotation is 0,0,0,1"};
+    }
+  }
+  return Ok{};
+}
+
+}  // namespace posed
