@@ -13,6 +13,13 @@ tally() { # passed|failed|skipped NUMBER [WHAT]
   if (($2 > 0)); then printf '%s\n' "$*" >>"$TALLY"; fi
 }
 
+# tally_failures NUMBER STATUS RUNNER: a runner that counted no failure and yet did not end well is one.
+tally_failures() {
+  local count=$1
+  if (($1 == 0 && $2 != 0)); then count=1; fi
+  tally failed "$count" "$3"
+}
+
 # A step, or the rest of it, that cannot run here.
 skip() {
   tally skipped 1 "$*"

@@ -14,7 +14,7 @@ run_step() {
   wait "$follower" 2>/dev/null || true
   [[ ! -t 1 ]] || printf '\r\033[K'
 
-  if ((rc != 0)) && ! grep -q '^failed' "$tally"; then printf 'failed 1 %s ended with %d\n' "$step" "$rc" >>"$tally"; fi
+  if ((rc != 0)); then printf 'failed 1 deploy/steps/%s broke off with %d\n' "$step" "$rc" >>"$tally"; fi
   if [[ ! -s $tally ]]; then echo "failed 1 $step tested nothing" >>"$tally"; fi
   row "$step" "$tally" $((SECONDS - begun)) | tee -a "$logs/table"
   if grep -q '^failed' "$tally"; then
