@@ -16,7 +16,9 @@ Error bad(std::string path, std::string message, std::string hint) {
   return {"bad_figure", std::move(message), std::move(path), std::move(hint)};
 }
 
-std::string at(const std::string& path, std::size_t i) { return path + "/" + std::to_string(i); }
+std::string at(const std::string& path, std::size_t i) {
+  return path + "/" + std::to_string(i);
+}
 
 std::string pointer_token(const std::string& name) {
   std::string token;
@@ -28,7 +30,9 @@ bool sane(const Vec3& v) {
   return finite(v) && std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) <= kMaxLength;
 }
 
-bool unit(double length) { return std::abs(length - 1.0) <= kUnitTolerance; }
+bool unit(double length) {
+  return std::abs(length - 1.0) <= kUnitTolerance;
+}
 
 Maybe check_point(const std::string& path, const std::string& whose, const Vec3& v) {
   if (sane(v)) return {};
@@ -43,17 +47,21 @@ Maybe check_name(const std::string& path, const std::string& what, const std::st
 
 std::size_t axes_of(JointType type) {
   switch (type) {
-    case JointType::universal: return 2;
+    case JointType::universal:
+      return 2;
     case JointType::hinge:
-    case JointType::prismatic: return 1;
-    default: return 0;
+    case JointType::prismatic:
+      return 1;
+    default:
+      return 0;
   }
 }
 
 Maybe check_axes(const Joint& joint, const std::string& path) {
   if (joint.axes.size() != axes_of(joint.type)) {
-    return bad(path + "/axes", "joint " + joint.name + " has " + std::to_string(joint.axes.size()) + " axes",
-               "its type has " + std::to_string(axes_of(joint.type)) + " (universal 2, hinge and prismatic 1, others 0)");
+    return bad(
+        path + "/axes", "joint " + joint.name + " has " + std::to_string(joint.axes.size()) + " axes",
+        "its type has " + std::to_string(axes_of(joint.type)) + " (universal 2, hinge and prismatic 1, others 0)");
   }
   for (std::size_t k = 0; k < joint.axes.size(); ++k) {
     if (!unit(glm::length(joint.axes[k]))) {
@@ -62,7 +70,8 @@ Maybe check_axes(const Joint& joint, const std::string& path) {
     }
   }
   if (joint.axes.size() == 2 && !(std::abs(glm::dot(joint.axes[0], joint.axes[1])) < 0.999)) {
-    return bad(path + "/axes", "the two axes of joint " + joint.name + " are parallel", "take two different directions");
+    return bad(path + "/axes", "the two axes of joint " + joint.name + " are parallel",
+               "take two different directions");
   }
   const double bend = glm::length(joint.bend_axis);
   if (bend != 0.0 && !unit(bend)) {
@@ -193,7 +202,7 @@ class References {
 
   Maybe check_sites() const {
     for (const auto& [name, site] : d_.sites) {
-      const std::string path = "/sites/" + pointer_token(name);
+      const std::string path = std::string("/sites/") + pointer_token(name);
       if (auto e = known(path + "/segment", site.segment)) return e;
       const auto slash = name.find('/');
       if (auto e = check_name(path, "a site of segment " + site.segment,
@@ -225,7 +234,7 @@ class References {
 
   Maybe check_aliases() const {
     for (const auto& [alias, name] : d_.aliases) {
-      const std::string path = "/aliases/" + pointer_token(alias);
+      const std::string path = std::string("/aliases/") + pointer_token(alias);
       if (auto e = check_name(path, "an alias of segment " + name.substr(0, 64), alias)) return e;
       if (auto e = known(path, name)) return e;
       if (alias != name && all_.count(alias)) {

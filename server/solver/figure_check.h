@@ -9,8 +9,8 @@
 namespace posed {
 
 inline constexpr int kMaxSegments = 500;
-inline constexpr int kMaxShapes = 64;    // of one segment
-inline constexpr int kMaxNames = 2000;   // sites, and aliases
+inline constexpr int kMaxShapes = 64;      // of one segment
+inline constexpr int kMaxNames = 2000;     // sites, and aliases
 inline constexpr double kMaxLength = 1e4;  // m, any coordinate
 inline constexpr double kUnitTolerance = 1e-6;
 

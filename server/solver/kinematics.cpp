@@ -1,5 +1,6 @@
 #include "server/solver/kinematics.h"
 
+#include <algorithm>
 #include <cassert>
 
 #include "server/solver/figure_check.h"
@@ -9,11 +10,15 @@ namespace posed {
 Transform joint_motion(const Joint& joint, std::span<const double> share) {
   switch (joint.type) {
     case JointType::ball:
-    case JointType::universal: return {kZero, quat_from_xyzw(share)};
-    case JointType::hinge: return {kZero, quat_about(joint.axes[0], share[0])};
-    case JointType::prismatic: return {joint.axes[0] * share[0], quat_identity()};
+    case JointType::universal:
+      return {kZero, quat_from_xyzw(share)};
+    case JointType::hinge:
+      return {kZero, quat_about(joint.axes[0], share[0])};
+    case JointType::prismatic:
+      return {joint.axes[0] * share[0], quat_identity()};
     case JointType::free:
-    case JointType::fixed: break;
+    case JointType::fixed:
+      break;
   }
   return {};
 }
@@ -35,24 +40,40 @@ void forward_kinematics(const BodyTree& tree, std::span<const double> q, std::sp
   }
 }
 
+void normalise_quaternions(const BodyTree& tree, std::span<double> q) {
+  each_quaternion(tree, [&](std::size_t first) {
+    const auto r = xyzw(glm::normalize(quat_from_xyzw(q.subspan(first, 4))));
+    std::copy(r.begin(), r.end(), q.begin() + static_cast<std::ptrdiff_t>(first));
+  });
+}
+
+void keep_signs(const BodyTree& tree, std::span<const double> before, std::span<double> q) {
+  each_quaternion(tree, [&](std::size_t first) {
+    const auto r = xyzw(same_sign(quat_from_xyzw(before.subspan(first, 4)), quat_from_xyzw(q.subspan(first, 4))));
+    std::copy(r.begin(), r.end(), q.begin() + static_cast<std::ptrdiff_t>(first));
+  });
+}
+
 Status check_q(const BodyTree& tree, std::span<const double> q) {
   if (static_cast<int>(q.size()) != tree.q_size()) {
     return Error{"invalid_params", "q has " + std::to_string(q.size()) + " values", "",
                  "this figure has " + std::to_string(tree.q_size()) + ": see q_layout in figure.get"};
   }
   for (std::size_t k = 0; k < q.size(); ++k) {
-    if (!finite(q[k])) return Error{"not_finite", "a value of q is not finite", "/" + std::to_string(k), "give a number"};
+    if (!finite(q[k]))
+      return Error{"not_finite", "a value of q is not finite", std::string("/") + std::to_string(k), "give a number"};
     if (std::abs(q[k]) > 1e6) {
-      return Error{"out_of_range", "a value of q is beyond 1e6", "/" + std::to_string(k), "give metres and radians"};
+      return Error{"out_of_range", "a value of q is beyond 1e6", std::string("/") + std::to_string(k),
+                   "give metres and radians"};
     }
   }
   for (int i = 0; i < tree.size(); ++i) {
     const int size = q_size(tree.joint(i).type);
     if (size < 4) continue;
-    const auto k = static_cast<std::size_t>(tree.q_at(i) + size - 4);
-    if (std::abs(glm::length(quat_from_xyzw(q.subspan(k, 4))) - 1.0) > kUnitTolerance) {
+    const auto first = static_cast<std::size_t>(tree.q_at(i) + size - 4);
+    if (std::abs(glm::length(quat_from_xyzw(q.subspan(first, 4))) - 1.0) > kUnitTolerance) {
       return Error{"out_of_range", "the quaternion of joint " + tree.joint(i).name + " is not of unit length",
-                   "/" + std::to_string(k), "divide it by its length; no rotation is 0,0,0,1"};
+                   std::string("/") + std::to_string(first), "divide it by its length; no rotation is 0,0,0,1"};
     }
   }
   return Ok{};

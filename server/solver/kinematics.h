@@ -23,8 +23,28 @@ Transform joint_motion(const Joint& joint, std::span<const double> share);
 // World transform of segment i, given its parent's (ignored for the root).
 Transform place_segment(const BodyTree& tree, int i, std::span<const double> q, const Transform& world_from_parent);
 
+// The reach tree's solver bends these freely.
+inline constexpr bool bends_as_ball(JointType type) {
+  return type == JointType::ball || type == JointType::universal;
+}
+
 // q of q_size() values with unit quaternions -> size() transforms. Does not allocate.
 void forward_kinematics(const BodyTree& tree, std::span<const double> q, std::span<Transform> world_from_segment);
+
+// Calls f(first) for each quaternion in q: its four values begin at index `first`.
+template <class F>
+void each_quaternion(const BodyTree& tree, F f) {
+  for (int i = 0; i < tree.size(); ++i) {
+    const int size = q_size(tree.joint(i).type);
+    if (size >= 4) f(static_cast<std::size_t>(tree.q_at(i) + size - 4));
+  }
+}
+
+// Makes each quaternion of q unit length.
+void normalise_quaternions(const BodyTree& tree, std::span<double> q);
+
+// Gives each quaternion of q the sign that is nearer to the one in `before`: the same pose, without a jump.
+void keep_signs(const BodyTree& tree, std::span<const double> before, std::span<double> q);
 
 // The right number of values, all finite, a root position within 1e6 m, quaternions of unit length to 1e-6.
 // Errors: "invalid_params", "not_finite", "out_of_range"; path "/12" is the index in q.
