@@ -27,6 +27,7 @@ constexpr std::size_t kGather = 16;            // lines in one write
 constexpr int kReadsInARow = 4;                // then others have their turn
 constexpr int kUnsentBytes = 16 << 10;         // that the kernel takes from us before they go out to a subscriber
 constexpr std::size_t kBurstBytes = 64 << 10;  // of replies, that may gather before they are sent
+constexpr std::size_t kFirstReply = 64 << 10;  // bytes expected of a reply before any has come
 constexpr std::string_view kNewline = "\n";
 
 std::size_t framed_size(const Outgoing& out) {
@@ -53,7 +54,8 @@ Connection::Connection(Hub& hub, Socket socket, ConnectionId id, std::string add
       socket_(std::move(socket)),
       id_(id),
       address_(std::move(address)),
-      outbox_(hub.options.limits.replies, hub.options.limits.reply_bytes, hub.tally) {
+      outbox_(hub.options.limits.replies, hub.options.limits.reply_bytes, hub.tally),
+      expected_reply_(kFirstReply) {
   add(hub_.tally.connections);
 }
 
@@ -84,6 +86,7 @@ void Connection::reply(const SharedLine& line) {
   --unanswered_;
   if (!line || (parting_ && !parting_->waits)) return;
   add(hub_.tally.replies);
+  expected_reply_ = std::max(line->size(), expected_reply_ - expected_reply_ / 8);
   if (outbox_.reply_bytes() > kBurstBytes) pump();
   if (!closed_ && !outbox_.reply(line)) overflow();
 }
@@ -110,11 +113,7 @@ void Connection::unsubscribe(proto::Stream stream) {
 
 void Connection::publish(proto::Stream stream, std::uint64_t seq, const SharedLine& line, bool send) {
   if (closed_) return;
-  const Nanoseconds now = hub_.clock.now();
-  // A frame whose time has come goes out before the newer one, even if its timer is late: it was not lost.
-  if (rate_armed_ && !write_armed_ && outbox_.due().value_or(now + 1) <= now) pump();
-  if (closed_) return;
-  if (!outbox_.put(stream, seq, line, now)) {
+  if (!outbox_.put(stream, seq, line, hub_.clock.now())) {
     overflow();
     return update();
   }
@@ -148,7 +147,10 @@ void Connection::check_deadline(Nanoseconds now) {
 
 bool Connection::room() const {
   const Limits& limits = hub_.options.limits;
-  return !closed_ && !parting_ && unanswered_ < limits.unanswered && outbox_.reply_bytes() < limits.unread_bytes;
+  if (closed_ || parting_ || unanswered_ >= limits.unanswered || outbox_.reply_bytes() >= limits.unread_bytes)
+    return false;
+  // Nor more than whose replies will find room, as far as the last ones tell.
+  return unanswered_ == 0 || unanswered_ * expected_reply_ < limits.reply_bytes / 2;
 }
 
 void Connection::hand_up(std::string_view text) {

@@ -88,6 +88,7 @@ class Connection final : public Link, public std::enable_shared_from_this<Connec
   Nanoseconds rate_due_ = 0;    // what the rate timer waits for
   Nanoseconds deadline_ = 0;    // 0: none
   std::size_t unanswered_ = 0;  // lines that were handed up
+  std::size_t expected_reply_;  // bytes, of those that are owed
   bool opened_ = false, closed_ = false, ended_ = false;
   bool read_armed_ = false, write_armed_ = false, rate_armed_ = false, small_buffer_ = false;
   bool dirty_ = false;

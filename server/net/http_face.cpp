@@ -25,7 +25,8 @@ HttpRequest request_of(const http::request<http::empty_body>& message) {
   request.origin = text(message[http::field::origin]);
   request.if_none_match = text(message[http::field::if_none_match]);
   request.upgrade = text(message[http::field::upgrade]);
-  request.connection = text(message[http::field::connection]);
+  const auto connections = message.equal_range(http::field::connection);
+  for (auto it = connections.first; it != connections.second; ++it) request.connection += text(it->value()) + ',';
   request.websocket_key = text(message[http::field::sec_websocket_key]);
   request.websocket_version = text(message[http::field::sec_websocket_version]);
   return request;

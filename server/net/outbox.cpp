@@ -15,9 +15,17 @@ bool Outbox::Slot::has_credit() const {
   return subscription.credit <= 0 || unacked.size() < static_cast<std::size_t>(subscription.credit);
 }
 
-void Outbox::Slot::pass(Nanoseconds now) {
-  // Kept in step with the schedule, so that late timers do not add up; after a pause it starts anew, without a burst.
-  if (period > 0) next_due = (now - next_due < period ? next_due : now) + period;
+// The time after `due` in a schedule that late timers do not shift, and that starts anew after a pause, without a
+// burst.
+Nanoseconds Outbox::Slot::after(Nanoseconds due, Nanoseconds now) const {
+  return (now - due < period ? due : now) + period;
+}
+
+bool Outbox::Slot::loses(Nanoseconds now) {
+  if (period == 0) return true;
+  if (now < lost_due) return false;
+  lost_due = after(lost_due, now);
+  return true;
 }
 
 void Outbox::queue(SharedLine bytes, Framing framing, bool frame) {
@@ -40,6 +48,7 @@ void Outbox::subscribe(const Subscription& subscription, SharedLine present, std
     s->period = std::llround(1e9 / std::max(subscription.max_rate_hz, kMinRateHz));
   }
   s->next_due = now;
+  s->lost_due = now + s->period;
   if (!present) return;
   if (subscription.thinned) {
     s->newest = std::move(present);
@@ -62,13 +71,9 @@ bool Outbox::put(proto::Stream stream, std::uint64_t seq, SharedLine line, Nanos
     return true;
   }
   if (s->newest) {
-    if (now < s->next_due) {
-      add(tally_.thinned);
-    } else {
-      ++s->lost;
-      add(tally_.dropped);
-      s->pass(now);
-    }
+    const bool loses = s->loses(now);
+    s->lost += loses;
+    add(loses ? tally_.dropped : tally_.thinned);
   }
   s->newest = std::move(line);
   s->seq = seq;
@@ -113,7 +118,8 @@ std::optional<Outgoing> Outbox::next(Nanoseconds now) {
       return Outgoing{std::move(told), framing_, false};
     }
     if (s->subscription.credit > 0) s->unacked.push_back(s->seq);
-    s->pass(now);
+    if (s->period > 0) s->next_due = s->after(s->next_due, now);
+    s->lost_due = s->next_due + s->period;
     turn_ = at + 1;
     return Outgoing{std::exchange(s->newest, nullptr), framing_, true};
   }

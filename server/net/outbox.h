@@ -64,13 +64,15 @@ class Outbox {
     Subscription subscription;
     Nanoseconds period = 0;  // 0: no cap
     Nanoseconds next_due = 0;
+    Nanoseconds lost_due = 0;            // a whole period after: until then a newer frame can still take its place
     SharedLine newest;                   // null: sent
     std::uint64_t seq = 0;               // of newest
     std::uint64_t lost = 0;              // not yet told
     std::vector<std::uint64_t> unacked;  // ascending; kept only with credit
 
     bool has_credit() const;
-    void pass(Nanoseconds now);  // a frame was sent or lost
+    bool loses(Nanoseconds now);  // that a frame is replaced costs the peer one that its rate would have brought
+    Nanoseconds after(Nanoseconds due, Nanoseconds now) const;
   };
 
   std::unique_ptr<Slot>& slot(proto::Stream stream) { return slots_[static_cast<std::size_t>(stream)]; }

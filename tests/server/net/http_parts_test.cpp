@@ -49,7 +49,7 @@ TEST(Sha1, KnownDigests) {
   EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
 }
 
-TEST(Websocket, AcceptKeyOfTheRfc) {
+TEST(WebsocketFrames, AcceptKeyOfTheRfc) {
   EXPECT_EQ(accept_key("dGhlIHNhbXBsZSBub25jZQ=="), "s3pPLMBiTxaQ9kYGzzhZRbK+xOo=");
 }
 
@@ -69,7 +69,7 @@ std::string client_frame(int first, std::string_view payload, std::uint64_t decl
   return frame;
 }
 
-TEST(Websocket, ReadsFramesInAnyPortions) {
+TEST(WebsocketFrames, ReadsFramesInAnyPortions) {
   const std::string big(70'000, 'b'), middle(300, 'm');
   const std::string bytes = client_frame(0x81, "hello") + client_frame(0x89, "ping") + client_frame(0x81, middle) +
                             client_frame(0x81, big) + client_frame(0x81, "");
@@ -85,7 +85,7 @@ TEST(Websocket, ReadsFramesInAnyPortions) {
   }
 }
 
-TEST(Websocket, JoinsFragmentsWithControlFramesBetween) {
+TEST(WebsocketFrames, JoinsFragmentsWithControlFramesBetween) {
   FrameReader reader(100);
   reader.push(client_frame(0x01, "one ") + client_frame(0x00, "two ") + client_frame(0x89, "?") +
               client_frame(0x80, "three"));
@@ -98,7 +98,7 @@ TEST(Websocket, JoinsFragmentsWithControlFramesBetween) {
   EXPECT_EQ(message->payload, "one two three");
 }
 
-TEST(Websocket, RefusesWhatBreaksTheRules) {
+TEST(WebsocketFrames, RefusesWhatBreaksTheRules) {
   const std::pair<std::string, int> wrong[] = {
       {client_frame(0xc1, "x"), 1002},                            // a reserved bit: nobody agreed on compression
       {std::string("\x81\x01x", 3), 1002},                        // not masked
@@ -122,7 +122,7 @@ TEST(Websocket, RefusesWhatBreaksTheRules) {
   }
 }
 
-TEST(Websocket, HeadersByLength) {
+TEST(WebsocketFrames, HeadersByLength) {
   const auto header = [](std::size_t size) {
     const FrameHeader h = frame_header(Opcode::text, size);
     return std::string(h.bytes.data(), h.size);

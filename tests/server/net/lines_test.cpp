@@ -157,7 +157,7 @@ TEST(Lines, AnswersMayComeInAnyOrderAndNumber) {
   FakeStation station;
   RawPeer peer(station.server.port());
   constexpr int kLines = 20'000;
-  std::thread writer([&] {
+  std::jthread writer([&] {
     std::string text;
     for (int i = 1; i <= kLines; ++i) text += ping(i);
     peer.send(text);
@@ -165,7 +165,6 @@ TEST(Lines, AnswersMayComeInAnyOrderAndNumber) {
   });
   for (int i = 1; i <= kLines; ++i) ASSERT_EQ(peer.incoming().id, i);
   EXPECT_TRUE(peer.at_end());
-  writer.join();
 }
 
 TEST(Lines, WithTooManyUnansweredNothingMoreIsRead) {
@@ -194,12 +193,11 @@ TEST(Lines, WhoDoesNotReadIsNotReadFrom) {
   RawPeer peer(station.server.port(), 4096);
   std::string text;
   for (int i = 1; i <= 400; ++i) text += proto::encode_request(i, proto::SessionStatus{}) + "\n";
-  std::thread writer([&] { peer.send(text); });
+  std::jthread writer([&] { peer.send(text); });
   // 40 MB are on offer; what is taken up is what the kernel's buffers hold.
   RawPeer other(station.server.port());
   for (int i = 1; i <= 100; ++i) EXPECT_EQ(other.call(proto::SessionPing{}, i).id, i);
   for (int i = 1; i <= 400; ++i) ASSERT_EQ(peer.incoming().id, i);
-  writer.join();
 }
 
 TEST(Lines, TooManyRepliesCloseThePeerAndSayWhy) {
@@ -209,8 +207,8 @@ TEST(Lines, TooManyRepliesCloseThePeerAndSayWhy) {
   station.padding = 500'000;
   station.hold();
   RawPeer peer(station.server.port(), 4096);
-  for (int i = 1; i <= 100; ++i) peer.send(proto::encode_request(i, proto::SessionStatus{}) + "\n");
-  ASSERT_TRUE(eventually([&] { return station.waiting_lines() == 100; }));
+  for (int i = 1; i <= 20; ++i) peer.send(proto::encode_request(i, proto::SessionStatus{}) + "\n");
+  ASSERT_TRUE(eventually([&] { return station.waiting_lines() == 20; }));
   RawPeer other(station.server.port());
   station.release();
   EXPECT_EQ(other.call(proto::SessionPing{}).id, 1);
@@ -223,7 +221,7 @@ TEST(Lines, TooManyRepliesCloseThePeerAndSayWhy) {
     }
     ASSERT_EQ(incoming.id, ++replies);
   }
-  EXPECT_LT(replies, 100);
+  EXPECT_LT(replies, 20);
   EXPECT_TRUE(peer.at_end());
 }
 
@@ -327,11 +325,15 @@ TEST(Lines, ManyComeAndGo) {
   }
   for (std::uint64_t seq = 1; seq <= 500; ++seq) station.publish(seq, 500);
   for (auto& thread : threads) thread.join();
-  EXPECT_TRUE(eventually([&] { return station.server.counters().connections == 0; }));
+  // A follower who is gone looks like one who has half-closed, until the next frame.
+  std::uint64_t seq = 500;
+  EXPECT_TRUE(eventually([&] {
+    station.publish(++seq);
+    return station.server.counters().connections == 0;
+  }));
   const std::lock_guard lock(station.mutex);
   EXPECT_EQ(station.opened, station.closed);
   EXPECT_TRUE(station.peers.empty());
-  EXPECT_EQ(station.server.counters().accepted, static_cast<std::uint64_t>(kThreads * kEach));
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ TEST(Streams, EveryoneGetsTheSameLine) {
     station.publish(seq, 3000);
     for (RawPeer& peer : peers) EXPECT_EQ(peer.line(), *FakeStation::frame(seq, 3000));
   }
-  EXPECT_EQ(station.server.counters().frames, 5u + 100u);
+  EXPECT_TRUE(eventually([&] { return station.server.counters().frames == 5 + 100; }));
   stranger.end();
   EXPECT_EQ(stranger.rest(), "") << "nothing unsolicited";
 }
@@ -121,7 +121,7 @@ TEST(Streams, CreditLimitsWhatIsUnderWay) {
   EXPECT_EQ(incoming.method, "stream.lost");
   EXPECT_EQ(incoming.dropped, 6u);
   EXPECT_EQ(peer.incoming().seq, 10u);
-  EXPECT_EQ(station.server.counters().frames, 1u + 3u + 1u);
+  EXPECT_TRUE(eventually([&] { return station.server.counters().frames == 1 + 3 + 1; }));
 }
 
 TEST(Streams, AStalledViewerWakesToAFreshFrame) {
@@ -134,7 +134,7 @@ TEST(Streams, AStalledViewerWakesToAFreshFrame) {
     if (seq % 50 == 0) std::this_thread::yield();
     ASSERT_LT(seq, 1'000'000u);
   }
-  ASSERT_TRUE(eventually([&] { return station.server.counters().dropped + 2 > seq; }));
+  ASSERT_TRUE(eventually([&] { return station.server.counters().dropped + 2 >= seq; }));
   // One frame more was let out before the first ack; what comes after is the newest.
   int stale = 0;
   for (;;) {
