@@ -1,0 +1,204 @@
+// posectl as a user runs it: what it prints, and its exit codes.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdio>
+
+#include "played_daemon.h"
+
+namespace posed::client {
+namespace {
+
+using namespace test;  // NOLINT: the vocabulary of these tests
+using Lines = std::vector<std::string>;
+
+struct Outcome {
+  int code = -1;
+  std::string out, err;
+};
+
+Outcome posectl(const std::string& arguments, const std::string& before = "") {
+  std::string errors = ::testing::TempDir() + "posectl-errors-XXXXXX";
+  const int fd = mkstemp(errors.data());
+  ::close(fd);
+  FILE* pipe = popen((before + " " POSED_PROGRAMS "/posectl " + arguments + " 2>" + errors).c_str(), "r");
+  Outcome run;
+  char chunk[4096];
+  while (const std::size_t got = fread(chunk, 1, sizeof chunk, pipe)) run.out.append(chunk, got);
+  const int status = pclose(pipe);
+  run.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  FILE* file = fopen(errors.c_str(), "r");
+  while (const std::size_t got = fread(chunk, 1, sizeof chunk, file)) run.err.append(chunk, got);
+  fclose(file);
+  std::remove(errors.c_str());
+  return run;
+}
+
+bool has(const std::string& text, std::string_view part) {
+  return text.find(part) != std::string::npos;
+}
+
+// Answers everything that posectl asks.
+Lines answer(const proto::Request& request) {
+  const auto* params = &request.params;
+  if (std::get_if<proto::SessionStatus>(params)) {
+    proto::StatusResult status;
+    status.daemon = {"posed", "0.1.0"};
+    status.t_ns = 1'500'000'000;
+    status.revision = 7;
+    status.figures = {"body"};
+    status.goals = 3;
+    status.method = "reach_tree";
+    return reply(request, status);
+  }
+  if (const auto* wish = std::get_if<proto::StreamSubscribe>(params)) {
+    Lines lines = reply(request, proto::SubscribeResult{wish->stream});
+    for (std::uint64_t seq = 1; seq <= 5; ++seq) {
+      proto::FigurePose figure;
+      figure.figure = "body";
+      proto::GoalFrame goal;
+      goal.id = "g1";
+      goal.state = GoalState::balanced;
+      goal.error = 0.0341;
+      figure.goals = {goal};
+      proto::PoseData data;
+      data.t_ns = static_cast<Nanoseconds>(seq) * 1'000'000'000;
+      data.revision = 9;
+      data.figures = {figure};
+      lines.push_back(proto::encode_pose_frame(seq, data, {}) + "\n");
+    }
+    return lines;
+  }
+  if (std::get_if<proto::StreamAck>(params)) return {};
+  if (const auto* set = std::get_if<proto::GoalSet>(params)) {
+    return reply(request, proto::EditResult{set->edit.id.empty() ? "made" : set->edit.id, 8, 1});
+  }
+  if (std::get_if<proto::GoalRemove>(params)) {
+    return {proto::encode_error(request.id, {"unknown_goal", "no goal is called x", "/params/id", "did you mean g1?"}) +
+            "\n"};
+  }
+  if (std::get_if<proto::GoalList>(params)) {
+    proto::GoalListResult list;
+    list.goals.resize(1);
+    list.goals[0].goal.id = "g1";
+    list.goals[0].goal.figure = "body";
+    list.goals[0].goal.at = {"right_hand", {}, "fingertip"};
+    list.goals[0].goal.position = {0.5, -0.3, 1.2};
+    return reply(request, list);
+  }
+  if (std::get_if<proto::GoalClear>(params)) return reply(request, proto::ClearResult{3, 9});
+  if (std::get_if<proto::PoseGet>(params)) {
+    proto::PoseResult pose;
+    pose.pose.figure = "body";
+    pose.method = "reach_tree";
+    return reply(request, pose);
+  }
+  if (std::get_if<proto::TrackerList>(params)) {
+    return reply(request,
+                 proto::TrackerListResult{{{"simulated", "simulated", "streaming", "", 240.0, 9, 0, {"simulated:1"}}}});
+  }
+  if (std::get_if<proto::SceneList>(params)) return reply(request, proto::SceneListResult{{"monday"}, {"standing"}});
+  if (std::get_if<proto::SceneSave>(params)) return reply(request, proto::EmptyResult{});
+  return reply(request, proto::RevisionResult{10});
+}
+
+class Posectl : public ::testing::Test {
+ protected:
+  Outcome run(const std::string& arguments) { return posectl("--host " + daemon.address() + " " + arguments); }
+  std::string last_line() const { return daemon.lines().back(); }
+  PlayedDaemon daemon{answer};
+};
+
+TEST_F(Posectl, Status) {
+  const Outcome text = run("status");
+  EXPECT_EQ(text.code, 0);
+  EXPECT_TRUE(has(text.out, "posed 0.1.0, up 1.5 s, revision 7")) << text.out;
+  EXPECT_EQ(text.err, "");
+  const Outcome json = run("status --json");
+  EXPECT_EQ(json.code, 0);
+  EXPECT_TRUE(json.out.starts_with("{") && has(json.out, "\"revision\":7")) << json.out;
+}
+
+TEST_F(Posectl, WatchStopsAfterTheCount) {
+  const Outcome text = run("watch pose --count 3 --rate 30 --figure body");
+  EXPECT_EQ(text.code, 0) << text.err;
+  EXPECT_EQ(std::count(text.out.begin(), text.out.end(), '\n'), 3);
+  EXPECT_TRUE(text.out.starts_with("t 1.000 s  revision 9  body converged  g1 balanced 34.1 mm\n")) << text.out;
+  EXPECT_TRUE(has(daemon.lines().front(), "\"max_rate_hz\":30")) << daemon.lines().front();
+  EXPECT_TRUE(has(daemon.lines().front(), "\"figures\":[\"body\"]"));
+  const Outcome json = run("--json watch --count 1");
+  EXPECT_EQ(json.code, 0);
+  EXPECT_TRUE(json.out.starts_with("{") && has(json.out, "\"t_ns\":1000000000")) << json.out;
+}
+
+TEST_F(Posectl, Goals) {
+  const Outcome set = run("goal set right_hand/fingertip 0.5 -0.3 1.2 --weight 40 --id g1 --figure body");
+  EXPECT_EQ(set.code, 0) << set.err;
+  EXPECT_EQ(set.out, "g1 is set (revision 8)\n");
+  EXPECT_TRUE(has(last_line(), R"("at":"right_hand/fingertip")")) << last_line();
+  EXPECT_TRUE(has(last_line(), "[0.5,-0.3,1.2]") && has(last_line(), "\"weight\":40")) << last_line();
+  EXPECT_EQ(run("goal set head 0 0 -1.5").code, 0);
+  EXPECT_FALSE(has(last_line(), "weight")) << "what is not named is not sent";
+  EXPECT_TRUE(has(run("goal list").out, "g1  body at right_hand/fingertip  [0.5 -0.3 1.2] m  weight 10"));
+  EXPECT_EQ(run("goal clear").out, "3 goals are removed (revision 9)\n");
+}
+
+TEST_F(Posectl, ARefusalIsExplained) {
+  const Outcome refused = run("goal remove x");
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_EQ(refused.out, "");
+  EXPECT_TRUE(has(refused.err, "no goal is called x (at /params/id)")) << refused.err;
+  EXPECT_TRUE(has(refused.err, "did you mean g1?"));
+}
+
+TEST_F(Posectl, PosesTrackersAndScenes) {
+  for (const char* words :
+       {"pose get", "pose get --figure body", "pose reset", "pose reset start", "pose mirror", "tracker",
+        "tracker list", "scene list", "scene new paper/sitting", "scene save monday", "scene open monday"}) {
+    const Outcome done = run(words);
+    EXPECT_EQ(done.code, 0) << words << ": " << done.err;
+    EXPECT_NE(done.out, "") << words;
+  }
+  EXPECT_TRUE(has(run("tracker").out, "simulated  streaming  240 Hz  9 frames"));
+}
+
+TEST_F(Posectl, CallsAnyMethod) {
+  EXPECT_TRUE(has(run("call session.status").out, "\"revision\": 7"));
+  EXPECT_EQ(run("--json call goal.clear '{\"figure\":\"body\"}'").out, "{\"removed\":3,\"revision\":9}\n");
+  EXPECT_TRUE(has(last_line(), "\"figure\":\"body\""));
+  const Outcome piped = posectl("--host " + daemon.address() + " call goal.clear -", "echo '{\"figure\":\"piped\"}' |");
+  EXPECT_EQ(piped.code, 0) << piped.err;
+  EXPECT_TRUE(has(last_line(), "\"figure\":\"piped\""));
+  EXPECT_EQ(run("call goal.clear '{'").code, 1);
+}
+
+TEST_F(Posectl, TheHostMayComeFromTheEnvironment) {
+  EXPECT_EQ(posectl("status", "POSED_HOST=" + daemon.address()).code, 0);
+}
+
+TEST(PosectlAlone, WrongUsageIsTwo) {
+  for (const char* words : {"", "nonsense", "goal", "goal set right_hand 1 2", "watch nothing", "watch --count x",
+                            "--host", "--host ws://x status", "pose reset sideways", "scene new"}) {
+    const Outcome wrong = posectl(words);
+    EXPECT_EQ(wrong.code, 2) << words;
+    EXPECT_NE(wrong.err, "") << words;
+  }
+  const Outcome help = posectl("--help");
+  EXPECT_EQ(help.code, 0);
+  EXPECT_TRUE(has(help.out, "watch"));
+}
+
+TEST(PosectlAlone, NoDaemonIsThree) {
+  const Outcome alone = posectl("--host " + nobody() + " status");
+  EXPECT_EQ(alone.code, 3);
+  EXPECT_TRUE(has(alone.err, "nothing listens at 127.0.0.1:")) << alone.err;
+  EXPECT_TRUE(has(alone.err, "./deploy/run"));
+}
+
+TEST(PosectlAlone, ALostConnectionIsThree) {
+  PlayedDaemon daemon([](const proto::Request&) { return Lines{"close"}; });
+  EXPECT_EQ(posectl("--host " + daemon.address() + " watch").code, 3);
+}
+
+}  // namespace
+}  // namespace posed::client
