@@ -205,7 +205,7 @@ export async function takeShot(page, path) {
     await menu.selectOption(wanted);
     await until(async () => (await state(page)).poseRevision > before, "the scene's pose");
   }
-  await page.getByTestId("toast").click({ timeout: 1000 }).catch(() => {});
+  await page.getByTestId("toast").waitFor({ state: "hidden" });
   await page.mouse.move(5, 5);
   await page.keyboard.press("f");
   await page.waitForTimeout(500);

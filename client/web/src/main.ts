@@ -29,7 +29,7 @@ const connection = new Connection(() => new WebSocket(socketAddress()) as TextSo
 });
 
 const area = element("main", { className: "views", testid: "views" });
-const views = new Views(area);
+const views = makeViews();
 const requests = new Requests(model, () => session);
 const bar = new Bar(model, views, requests, () => connection.connect());
 const panels = [new FigurePanel(), new GoalPanel(model, requests), new TrackerPanel(model, requests)];
@@ -46,6 +46,15 @@ listenToKeys(views, model, requests);
 exposeDebugHandle(model, views);
 connection.connect();
 requestAnimationFrame(frame);
+
+function makeViews(): Views {
+  try {
+    return new Views(area);
+  } catch (error) {
+    document.body.append(element("p", { className: "fatal", text: "This browser gives the page no WebGL 2, without which nothing can be drawn." }));
+    throw error;
+  }
+}
 
 function frame(): void {
   const nowMs = performance.now();

@@ -25,10 +25,8 @@ export class Session {
 
   async start(): Promise<void> {
     const { model, rpc } = this;
-    model.hello = await rpc.request<HelloReply>("session.hello", {
-      protocol: 1,
-      client: { name: "posed-web", version: "0.1.0" },
-    });
+    const client = { name: "posed-web", version: "0.1.0" };
+    model.beginSession(await rpc.request<HelloReply>("session.hello", { protocol: 1, client }));
     await Promise.all([this.fetchTrackers(), this.fetchMenu(), this.subscribeScene()]);
     await this.streams.subscribe(
       { stream: "pose", fields: ["world_from_segment", "goals"], max_rate_hz: 60, credit: 3 },

@@ -20,9 +20,7 @@ export class Bar {
     this.connection.addEventListener("click", () => model.connection.phase === "lost" && reconnect());
     this.scenes.setAttribute("aria-label", "new scene");
     this.scenes.addEventListener("change", () => {
-      const [kind, name = ""] = this.scenes.value.split(/:(.*)/s);
-      if (kind === "new") requests.newScene(name);
-      if (kind === "open") requests.openScene(name);
+      void this.beginScene(views, requests);
       this.scenes.value = "";
       this.scenes.blur();
     });
@@ -41,9 +39,15 @@ export class Bar {
     );
   }
 
+  private async beginScene(views: Views, requests: Requests): Promise<void> {
+    const [kind, name = ""] = this.scenes.value.split(/:(.*)/s);
+    const revision = await (kind === "open" ? requests.openScene(name) : requests.newScene(name));
+    if (revision !== undefined) views.fitFrom(revision);
+  }
+
   update(model: Model, nowMs: number): void {
     const phase = model.connection.phase;
-    this.connection.dataset["phase"] = phase;
+    this.connection.dataset["phase"] = document.body.dataset["phase"] = phase;
     setText(this.connection, connectionText(model.connection, nowMs));
     this.connection.title = phase === "lost" ? "Click to try now" : daemonText(model);
     setOptions(
@@ -57,8 +61,9 @@ export class Bar {
     );
     this.goal.classList.toggle("on", model.makingGoal);
     setText(this.fps, `${Math.round(model.poseMeter.perSecond(nowMs))} poses/s`);
-    const lost = Object.values(model.lost).reduce((sum, count) => sum + count, 0);
-    setText(this.lost, `${lost} dropped`);
+    setText(this.lost, `${model.lost.pose ?? 0} dropped`);
+    const lost = Object.entries(model.lost).map(([stream, count]) => `${stream} ${count}`);
+    this.lost.title = `Frames the daemon left out because this page was slower: ${lost.join(", ") || "none"}`;
     setText(this.trip, model.roundTripMs === null ? "" : `${model.roundTripMs.toFixed(model.roundTripMs < 10 ? 1 : 0)} ms`);
   }
 }

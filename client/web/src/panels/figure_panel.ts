@@ -23,8 +23,8 @@ export class FigurePanel {
     for (const [id, row] of this.rows.rows) {
       const pose = model.poses.get(id);
       setText(row.status, pose?.status ?? "");
+      row.root.dataset["status"] = pose?.status ?? "";
       setText(row.cost, pose ? `cost ${pose.cost.toPrecision(3)}` : "");
-      setText(row.size, `${model.figures.get(id)?.segments.length ?? 0} segments`);
     }
   }
 }
@@ -33,13 +33,12 @@ class FigureRow {
   readonly root: HTMLElement;
   readonly status = element("span", { className: "figure-status", testid: "figure-status" });
   readonly cost = element("span", { className: "dim number" });
-  readonly size = element("span", { className: "dim grow" });
 
   constructor(id: string) {
     this.root = element(
       "div",
       { className: "row figure", testid: `figure-${id}` },
-      element("div", { className: "line" }, element("span", { className: "strong", text: id }), this.size, this.cost, this.status),
+      element("div", { className: "line" }, element("span", { className: "strong grow", text: id }), this.cost, this.status),
     );
   }
 }

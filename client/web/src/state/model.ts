@@ -73,6 +73,16 @@ export class Model {
     this.touch("connection");
   }
 
+  /** A new session: what is only true while it streams is gone; the last poses stay to be looked at. */
+  beginSession(hello: HelloReply): void {
+    this.hello = hello;
+    this.poseRevision = -1;
+    this.localTargets.clear();
+    this.samples.clear();
+    this.touch("samples");
+    this.touch("local");
+  }
+
   setFigures(replies: FigureReply[]): void {
     this.figures = new Map(replies.map(({ id, document }) => [id, document]));
     for (const id of this.poses.keys()) if (!this.figures.has(id)) this.poses.delete(id);

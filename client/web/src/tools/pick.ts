@@ -2,7 +2,7 @@
 import { Raycaster, Vector3 } from "three";
 import type { Model } from "../state/model";
 import type { SegmentKey } from "../views/figure_view";
-import { isOrtho, type ViewName } from "../views/names";
+import type { ViewName } from "../views/names";
 import { rayAt } from "../views/projection";
 import type { Views } from "../views/views";
 
@@ -30,7 +30,6 @@ export function pickSegment(views: Views, name: ViewName, x: number, y: number):
   const ray = rayAt(camera, rect, x, y);
   const caster = new Raycaster(ray.origin, ray.direction);
   caster.camera = camera;
-  if (isOrtho(name)) caster.near = -Infinity;
   const hit = caster.intersectObject(views.figures.group, true)[0];
   return hit ? (hit.object.userData as SegmentKey) : null;
 }

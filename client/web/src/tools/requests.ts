@@ -65,12 +65,13 @@ export class Requests {
     void this.tell("binding.remove", { id });
   }
 
-  newScene(template: string): void {
-    void this.tell("scene.new", { template });
+  /** Both tell the revision of the scene that is now open, or nothing when the daemon refused. */
+  async newScene(template: string): Promise<number | undefined> {
+    return (await this.tell<EditReply>("scene.new", { template }))?.revision;
   }
 
-  openScene(name: string): void {
-    void this.tell("scene.open", { name });
+  async openScene(name: string): Promise<number | undefined> {
+    return (await this.tell<EditReply>("scene.open", { name }))?.revision;
   }
 
   resetPose(to: "rest" | "start"): void {

@@ -1,14 +1,22 @@
 // Where the four views look from. The orthographic three share one centre and one scale; the fourth orbits.
 import { Box3, Matrix4, OrthographicCamera, PerspectiveCamera, Vector3, type Camera } from "three";
-import { isOrtho, orthoBases, type Basis, type OrthoName, type ViewName } from "./names";
+import type { Vec3 } from "../protocol/types";
+import { isOrtho, orthoBases, orthoNames, type Basis, type OrthoName, type ViewName } from "./names";
 import { metresPerPixel, onViewPlane, type PaneRect } from "./projection";
 
 const kFieldOfView = 32;
-const kMargin = 1.22;
+const kOrthoMargin = 1.22;
+// Less, because a box's corners reach farther than the body in it.
+const kPerspectiveMargin = 1.06;
 const kFar = 60;
 
-function vector([x, y, z]: readonly [number, number, number]): Vector3 {
+function vector([x, y, z]: Vec3): Vector3 {
   return new Vector3(x, y, z);
+}
+
+/** A size as seen along one of the world's axes. */
+function along(size: Vector3, axis: Vec3): number {
+  return Math.abs(size.dot(vector(axis)));
 }
 
 export class Cameras {
@@ -61,16 +69,38 @@ export class Cameras {
     this.version++;
   }
 
-  /** Frames what matters in all four views; directions of view stay. */
-  fit(box: Box3): void {
+  /** Frames a box in all the panes that show; directions of view stay. */
+  fit(box: Box3, rects: Partial<Record<ViewName, PaneRect>>): void {
     if (box.isEmpty()) return;
-    const size = box.getSize(new Vector3());
     box.getCenter(this.focus);
     this.target.copy(this.focus);
-    this.span = Math.max(size.x, size.z, size.y * 0.85, 0.3) * kMargin;
-    const radius = Math.max(size.z, Math.hypot(size.x, size.y) * 0.8, 0.3) / 2;
-    this.distance = (radius * kMargin) / Math.tan((kFieldOfView / 2) * (Math.PI / 180)) + size.x / 2;
+    const size = box.getSize(new Vector3());
+    let span = 0.3;
+    for (const name of orthoNames) {
+      const rect = rects[name];
+      if (!rect) continue;
+      const shorter = Math.min(rect.width, rect.height);
+      const { right, up } = orthoBases[name];
+      span = Math.max(span, (along(size, right) * shorter) / rect.width, (along(size, up) * shorter) / rect.height);
+    }
+    this.span = span * kOrthoMargin;
+    if (rects.perspective) this.distance = this.distanceFor(box, rects.perspective);
     this.version++;
+  }
+
+  /** The least distance from which every corner of the box is seen. */
+  private distanceFor(box: Box3, rect: PaneRect): number {
+    const camera = this.perspectiveCamera(rect);
+    const tan = Math.tan((kFieldOfView / 2) * (Math.PI / 180));
+    let distance = 0.3;
+    for (let corner = 0; corner < 8; corner++) {
+      const at = (axis: "x" | "y" | "z", bit: number) => (corner & bit ? box.max : box.min)[axis];
+      const offset = new Vector3(at("x", 1), at("y", 2), at("z", 4)).sub(this.target);
+      offset.applyQuaternion(camera.quaternion.clone().invert());
+      const across = Math.max(Math.abs(offset.x) / camera.aspect, Math.abs(offset.y));
+      distance = Math.max(distance, (across / tan) * kPerspectiveMargin + offset.z);
+    }
+    return distance;
   }
 
   private orthoCamera(name: OrthoName, rect: PaneRect): OrthographicCamera {
@@ -93,11 +123,11 @@ export class Cameras {
     camera.aspect = rect.width / rect.height;
     camera.updateProjectionMatrix();
     const flat = Math.cos(this.pitch);
-    const back: [number, number, number] = [
+    const back: Vec3 = [
       flat * Math.cos(this.yaw), flat * Math.sin(this.yaw), Math.sin(this.pitch),
     ];
-    const right: [number, number, number] = [-Math.sin(this.yaw), Math.cos(this.yaw), 0];
-    const up = vector(back).cross(vector(right)).toArray() as [number, number, number];
+    const right: Vec3 = [-Math.sin(this.yaw), Math.cos(this.yaw), 0];
+    const up = vector(back).cross(vector(right)).toArray() as Vec3;
     place(camera, { right, up, back }, this.target.clone().addScaledVector(vector(back), this.distance));
     return camera;
   }

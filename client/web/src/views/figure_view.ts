@@ -4,7 +4,7 @@ import {
   CapsuleGeometry,
   Group,
   Mesh,
-  MeshStandardMaterial,
+  MeshLambertMaterial,
   Quaternion,
   SphereGeometry,
   Vector3,
@@ -44,7 +44,7 @@ export class FigureView {
     this.group.traverse((part) => {
       if (!(part instanceof Mesh)) return;
       (part.geometry as BufferGeometry).dispose();
-      (part.material as MeshStandardMaterial).dispose();
+      (part.material as MeshLambertMaterial).dispose();
     });
     this.group.clear();
     this.segments.clear();
@@ -69,10 +69,8 @@ function depthOf(document: FigureDocument, segment: SegmentDocument): number {
 
 function buildSegment(figure: string, segment: SegmentDocument, depth: number): Group {
   const key: SegmentKey = { figure, segment: segment.name };
-  const material = new MeshStandardMaterial({
+  const material = new MeshLambertMaterial({
     color: segmentColor(segment.name, depth),
-    roughness: 0.62,
-    metalness: 0,
   });
   const group = new Group();
   group.name = segment.name;
@@ -90,7 +88,7 @@ function bareBone({ touch_point }: SegmentDocument): Shape {
   return { kind: "capsule", from: [0, 0, 0], to: touch_point, radius: 0.015 };
 }
 
-function buildShape(shape: Shape, material: MeshStandardMaterial): Mesh {
+function buildShape(shape: Shape, material: MeshLambertMaterial): Mesh {
   if (shape.kind === "box") {
     const [x, y, z] = shape.half_size;
     return at(new Mesh(new BoxGeometry(2 * x, 2 * y, 2 * z), material), shape.center);

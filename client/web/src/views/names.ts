@@ -7,6 +7,8 @@ export type OrthoName = Exclude<ViewName, "perspective">;
 /** Reading order of the grid: the top view stands over the front view, so that Y runs the same way in both. */
 export const viewNames: readonly ViewName[] = ["top", "perspective", "front", "side"];
 
+export const orthoNames: readonly OrthoName[] = ["top", "front", "side"];
+
 /** World directions of the screen's right, the screen's up, and out of the screen. */
 export interface Basis {
   right: Vec3;
