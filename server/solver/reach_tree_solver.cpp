@@ -25,9 +25,12 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
-// A goal that is off by less counts as off by this much in balance_error's denominator: a share of nothing says
+// m. Of balance_error's denominator: where every goal is as good as reached, a share of the pulls would be one of
 // nothing.
-constexpr double kLeastTerm = 1e-3;
+constexpr double kLeastMiss = 1e-6;
+
+// m. A node whose goals are off by less on the weighted mean is left where it is.
+constexpr double kRest = 1e-12;
 
 // Passes at the root without gain after which it stalls.
 constexpr int kPatience = 10;
@@ -54,8 +57,9 @@ void ReachTreeSolver::prepare(std::span<const ReachGoal> goals) {
   pose_.resize();
   loads_.resize(reach_.nodes.size());
   std::fill(node_of_segment_.begin(), node_of_segment_.end(), -1);
-  for (std::size_t n = 0; n < reach_.nodes.size(); ++n)
+  for (std::size_t n = 0; n < reach_.nodes.size(); ++n) {
     node_of_segment_[at(reach_.nodes[n].segment)] = static_cast<int>(n);
+  }
 }
 
 void ReachTreeSolver::solve(std::span<double> q, std::span<const ReachGoal> goals, const ReachTreeOptions& options,
@@ -109,7 +113,7 @@ void ReachTreeSolver::load_goals(std::span<const ReachGoal> goals) {
     load.target += (target - load.target) * share;
     farthest = std::max({farthest, std::abs(target.x), std::abs(target.y), std::abs(target.z)});
   }
-  rounding_ = 8.0 * std::numeric_limits<double>::epsilon() * farthest;
+  rest_ = std::max(kRest, 8.0 * std::numeric_limits<double>::epsilon() * farthest);
 }
 
 // Below the root each node moves but a few times a pass, so while it settles the root's displacement may grow for some
@@ -214,7 +218,7 @@ void ReachTreeSolver::measure(int n) {
 
 bool ReachTreeSolver::rests(int n) const {
   const Load& load = loads_[at(n)];
-  return glm::length(load.stwd) <= rounding_ * load.stweight;
+  return glm::length(load.stwd) <= rest_ * load.stweight;
 }
 
 bool ReachTreeSolver::spent() const {
@@ -222,15 +226,16 @@ bool ReachTreeSolver::spent() const {
 }
 
 ReachTreeSolver::Sums ReachTreeSolver::sum(std::span<const ReachGoal> goals) const {
-  double terms = 0.0, cost = 0.0;
+  double pulls = 0.0, weights = 0.0, cost = 0.0;
   for (const ReachGoal& goal : goals) {
     const double weight = pull_of(goal) / heaviest_;
     if (!(weight > 0.0)) continue;
     const double miss = glm::length(target_of(goal) - pose_.world_point(goal.segment, goal.point));
-    terms += weight * std::max(miss, kLeastTerm);
+    pulls += weight * miss;
+    weights += weight;
     cost += weight * miss * miss;
   }
-  return {terms > 0.0 ? glm::length(loads_[0].stwd) / terms : 0.0, cost};
+  return {glm::length(loads_[0].stwd) / std::max(pulls, kLeastMiss * weights), cost};
 }
 
 }  // namespace posed

@@ -94,7 +94,7 @@ class ReachTreeSolver {
   // Of the solve under way.
   ReachTreeOptions options_;
   double heaviest_ = 1.0;
-  double rounding_ = 0.0;  // m; a displacement below it is none
+  double rest_ = 0.0;  // m; a displacement below it is none
   int chain_solves_ = 0;
   int iterations_ = 0;
 };
