@@ -22,6 +22,10 @@ int claim_once(libusb_device_handle* handle) {
     // Setting one that is set already would reset the device, so this is done only where there is none.
     if (const int code = libusb_set_configuration(handle, 1); code != LIBUSB_SUCCESS) return code;
   }
+  const int code = libusb_claim_interface(handle, 0);
+  // A generic kernel driver (usbserial, told to) may sit on it; another program must not be pushed off.
+  if (code != LIBUSB_ERROR_BUSY || libusb_kernel_driver_active(handle, 0) != 1) return code;
+  libusb_detach_kernel_driver(handle, 0);
   return libusb_claim_interface(handle, 0);
 }
 
@@ -40,7 +44,6 @@ std::string name_of(const UsbIdentity& who) {
 }  // namespace
 
 int claim_usb_interface(UsbBus& bus, libusb_device_handle* handle, const std::function<bool()>& stopping) {
-  libusb_set_auto_detach_kernel_driver(handle, 1);
   const auto deadline = std::chrono::steady_clock::now() + kPatience;
   for (;;) {
     const int code = claim_once(handle);
