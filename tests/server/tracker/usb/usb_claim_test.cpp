@@ -20,7 +20,9 @@ TEST(UsbErrors, EachNamesTheDeviceAndACure) {
   EXPECT_NE(usb_open_error(LIBUSB_ERROR_ACCESS, kWho).hint.find("udev rule"), std::string::npos);
 }
 
-TEST(UsbErrors, TheHolderIsUnknownWhereNobodyHoldsIt) { EXPECT_EQ(usb_holder({0x0f44, 0xff20, 250, 250}), ""); }
+TEST(UsbErrors, TheHolderIsUnknownWhereNobodyHoldsIt) {
+  EXPECT_EQ(usb_holder({0x0f44, 0xff20, 250, 250}), "");
+}
 
 TEST(LibertyModels, LoadersAreNoTrackers) {
   for (const LibertyModel& model : liberty_models()) {
