@@ -16,24 +16,33 @@ enum class JointType { free, ball, universal, hinge, prismatic, fixed };
 
 inline constexpr int q_size(JointType type) {
   switch (type) {
-    case JointType::free: return 7;       // position, quat_xyzw
+    case JointType::free:
+      return 7;  // position, quat_xyzw
     case JointType::ball:
-    case JointType::universal: return 4;  // quat_xyzw
-    case JointType::hinge:                // rad
-    case JointType::prismatic: return 1;  // m
-    case JointType::fixed: return 0;
+    case JointType::universal:
+      return 4;             // quat_xyzw
+    case JointType::hinge:  // rad
+    case JointType::prismatic:
+      return 1;  // m
+    case JointType::fixed:
+      return 0;
   }
   return 0;
 }
 
 inline constexpr int degrees_of_freedom(JointType type) {
   switch (type) {
-    case JointType::free: return 6;
-    case JointType::ball: return 3;
-    case JointType::universal: return 2;
+    case JointType::free:
+      return 6;
+    case JointType::ball:
+      return 3;
+    case JointType::universal:
+      return 2;
     case JointType::hinge:
-    case JointType::prismatic: return 1;
-    case JointType::fixed: return 0;
+    case JointType::prismatic:
+      return 1;
+    case JointType::fixed:
+      return 0;
   }
   return 0;
 }
@@ -48,7 +57,7 @@ struct Joint {
   Transform parent_from_joint;  // where the segment's frame lies in its parent's at rest (the root's: in the world)
   std::vector<Vec3> axes;       // unit; universal: two, hinge and prismatic: one, in the joint's frame at rest
   std::vector<std::optional<Limit>> limits;  // one a degree of freedom (ball: about x, y, z), or none at all
-  Vec3 bend_axis{0.0, 0.0, 0.0};             // unit, joint's frame at rest: a straight limb bends about it; zero: no wish
+  Vec3 bend_axis{0.0, 0.0, 0.0};  // unit, joint's frame at rest: a straight limb bends about it; zero: no wish
 };
 
 struct Shape {
@@ -60,8 +69,8 @@ struct Shape {
 
 struct Segment {
   std::string name;
-  std::string parent;  // empty: the root
-  Joint joint;         // joins the segment to its parent
+  std::string parent;               // empty: the root
+  Joint joint;                      // joins the segment to its parent
   Vec3 touch_point{0.0, 0.0, 0.0};  // segment's frame
   std::vector<Shape> shapes;
   double mass = 0.0;  // kg

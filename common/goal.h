@@ -41,12 +41,16 @@ struct GoalEdit {
   Patched<std::string> user;
 };
 
+struct Axes {
+  bool x = true, y = true, z = true;
+};
+
 struct Binding {
   enum class Mode { absolute, relative };
   std::string id;
   std::string sensor;  // "simulated:1"
   std::string goal;    // the goal that it moves
-  bool axes[3] = {true, true, true};  // x y z
+  Axes axes;           // those of the goal that follow the sensor
   Mode mode = Mode::absolute;
   double scale = 1.0;
   std::string label;
@@ -57,7 +61,7 @@ struct BindingEdit {
   std::string id;  // empty: SENSOR with ':' as '.'
   std::optional<std::string> sensor;
   std::optional<std::string> goal;
-  Patched<std::string> axes;  // of "xyz", those that are named
+  Patched<Axes> axes;
   Patched<Binding::Mode> mode;
   Patched<double> scale;
   Patched<std::string> label;

@@ -11,7 +11,9 @@ std::atomic<LogLevel> threshold{LogLevel::info};
 constexpr std::string_view kNames[] = {"debug", "info", "warning", "error"};
 }  // namespace
 
-void set_log_level(LogLevel level) { threshold = level; }
+void set_log_level(LogLevel level) {
+  threshold = level;
+}
 
 void log(LogLevel level, std::string_view text) {
   if (level < threshold.load(std::memory_order_relaxed)) return;

@@ -19,10 +19,18 @@ inline constexpr Vec3 kX{1.0, 0.0, 0.0};
 inline constexpr Vec3 kY{0.0, 1.0, 0.0};
 inline constexpr Vec3 kZ{0.0, 0.0, 1.0};
 
-inline Quat quat_identity() { return Quat(1.0, 0.0, 0.0, 0.0); }
-inline Quat quat_from_xyzw(double x, double y, double z, double w) { return Quat(w, x, y, z); }
-inline Quat quat_from_xyzw(std::span<const double> v) { return Quat(v[3], v[0], v[1], v[2]); }
-inline std::array<double, 4> xyzw(const Quat& q) { return {q.x, q.y, q.z, q.w}; }
+inline Quat quat_identity() {
+  return Quat(1.0, 0.0, 0.0, 0.0);
+}
+inline Quat quat_from_xyzw(double x, double y, double z, double w) {
+  return Quat(w, x, y, z);
+}
+inline Quat quat_from_xyzw(std::span<const double> v) {
+  return Quat(v[3], v[0], v[1], v[2]);
+}
+inline std::array<double, 4> xyzw(const Quat& q) {
+  return {q.x, q.y, q.z, q.w};
+}
 
 // The rotation by `angle` (rad) about the unit vector `axis`.
 inline Quat quat_about(const Vec3& axis, double angle) {
@@ -44,12 +52,20 @@ inline Transform inverse(const Transform& t) {
   return {-(r * t.position), r};
 }
 
-inline bool finite(double v) { return std::isfinite(v); }
-inline bool finite(const Vec3& v) { return finite(v.x) && finite(v.y) && finite(v.z); }
-inline bool finite(const Quat& q) { return finite(q.x) && finite(q.y) && finite(q.z) && finite(q.w); }
+inline bool finite(double v) {
+  return std::isfinite(v);
+}
+inline bool finite(const Vec3& v) {
+  return finite(v.x) && finite(v.y) && finite(v.z);
+}
+inline bool finite(const Quat& q) {
+  return finite(q.x) && finite(q.y) && finite(q.z) && finite(q.w);
+}
 
 // `b` or `-b`, whichever is nearer to `a`: the same rotation with a sign that does not jump.
-inline Quat same_sign(const Quat& a, const Quat& b) { return glm::dot(a, b) < 0.0 ? -b : b; }
+inline Quat same_sign(const Quat& a, const Quat& b) {
+  return glm::dot(a, b) < 0.0 ? -b : b;
+}
 
 // The smallest rotation that takes the direction of `from` to that of `to`. Where they are opposite it turns about
 // `fallback` (made perpendicular to `from`; any axis if that fails too); where either is zero it is the identity.

@@ -13,8 +13,8 @@ enum class SolveStatus { converged, deadline, stalled };
 
 struct Cause {
   enum class Kind { goal, beyond } kind = Kind::goal;
-  int goal = -1;         // index among the pose's goals: it holds this one
-  double beyond_m = 0.0; // how far the target lies beyond the straight chain
+  int goal = -1;          // index among the pose's goals: it holds this one
+  double beyond_m = 0.0;  // how far the target lies beyond the straight chain
 };
 
 struct GoalReport {

@@ -1,4 +1,5 @@
-// Time is integer nanoseconds. On the daemon's clock they count from its start (monotonic); device clocks have their own zero.
+// Time is integer nanoseconds. On the daemon's clock they count from its start (monotonic); device clocks have their
+// own zero.
 #pragma once
 
 #include <chrono>
@@ -21,7 +22,8 @@ class Clock {
 };
 
 inline Nanoseconds utc_now() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch()).count();
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch())
+      .count();
 }
 
 }  // namespace posed

@@ -22,13 +22,14 @@ std::string encode_error(const std::string& id, const Error& error);
 // The line that answers a batch; empty if there is nothing to answer.
 std::string join_batch(const std::vector<std::string>& replies);
 
-// Stream frames, without the trailing newline. Positions carry 6 decimals, quaternions 7; every other number its shortest form.
+// Stream frames, without the trailing newline. Positions carry 6 decimals, quaternions 7; every other number its
+// shortest form.
 std::string encode_pose_frame(std::uint64_t seq, const PoseData& data, const PoseFields& fields);
 std::string encode_tracker_frame(std::uint64_t seq, const TrackerData& data);
 std::string encode_stats_frame(std::uint64_t seq, const StatsData& data);
 std::string encode_scene_snapshot(std::uint64_t seq, std::uint64_t revision, std::string_view document);
-std::string encode_scene_patch(std::uint64_t seq, std::uint64_t from_revision, std::uint64_t revision, std::string_view by,
-                               std::string_view patch);
+std::string encode_scene_patch(std::uint64_t seq, std::uint64_t from_revision, std::uint64_t revision,
+                               std::string_view by, std::string_view patch);
 std::string encode_lost(Stream stream, std::uint64_t dropped);
 
 // ---- documents ----
@@ -52,10 +53,10 @@ struct Incoming {
   std::optional<std::int64_t> id;  // a reply to this request
   std::string result;              // JSON text of the result, if it is one
   std::optional<Error> error;
-  std::string method;              // a notification: "stream.frame", "stream.lost"
+  std::string method;  // a notification: "stream.frame", "stream.lost"
   std::optional<Stream> stream;
   std::uint64_t seq = 0;
-  std::string data;                // JSON text: of a frame's data
+  std::string data;  // JSON text: of a frame's data
   std::uint64_t dropped = 0;
 };
 Result<Incoming> decode_incoming(std::string_view text);

@@ -22,7 +22,7 @@ class LineSplitter {
  private:
   std::size_t max_line_;
   std::string buffer_;
-  std::size_t begin_ = 0;   // of the line being looked for
+  std::size_t begin_ = 0;    // of the line being looked for
   std::size_t scanned_ = 0;  // no line end before this
   std::size_t pending_ = 0;  // bytes since the last line end
 };

@@ -148,7 +148,7 @@ using Params =
                  SceneList, SceneSave, SceneOpen, TrackerList, StreamSubscribe, StreamUnsubscribe, StreamAck>;
 
 struct Request {
-  std::string id;  // JSON text of the id; empty: a notification, which gets no reply
+  std::string id;                            // JSON text of the id; empty: a notification, which gets no reply
   std::optional<std::uint64_t> if_revision;  // edits only
   Params params;
 };

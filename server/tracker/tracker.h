@@ -15,11 +15,11 @@ enum class State { searching, starting, streaming, silent, failed };
 
 struct Status {
   State state = State::searching;
-  std::string message;            // what is wrong and what to do, or empty
-  double rate_hz = 0.0;           // nominal
+  std::string message;   // what is wrong and what to do, or empty
+  double rate_hz = 0.0;  // nominal
   std::uint64_t frames = 0;
-  std::uint64_t bad_bytes = 0;    // skipped on the way back into step
-  std::vector<int> stations;      // seen last
+  std::uint64_t bad_bytes = 0;  // skipped on the way back into step
+  std::vector<int> stations;    // seen last
 };
 
 // Called on the tracker's own thread, in order; they must not block and must not call back into the tracker.
@@ -30,7 +30,7 @@ struct Sink {
 
 class Tracker {
  public:
-  virtual ~Tracker() = default;  // stops
+  virtual ~Tracker() = default;                 // stops
   virtual const std::string& id() const = 0;    // "simulated": the device part of its sensors' ids
   virtual const std::string& kind() const = 0;  // "liberty"
   virtual void start(Sink sink) = 0;            // once

@@ -1,0 +1,48 @@
+// posectl's commands. Each prints what it has to say and returns the exit code.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "client/lib/client.h"
+
+namespace posed::cli {
+
+inline constexpr int kDone = 0, kRefused = 1, kUsage = 2, kNoDaemon = 3;
+
+struct Session {
+  client::Client& client;
+  bool json = false;  // results as the daemon sends them
+};
+
+struct Watch {
+  proto::Stream stream = proto::Stream::pose;
+  double rate_hz = 0.0;     // 0: no cap
+  std::uint64_t count = 0;  // 0: for ever
+  std::string figure;
+};
+
+int run_status(const Session& session);
+int run_watch(const Session& session, const Watch& watch);
+
+int list_goals(const Session& session);
+int set_goal(const Session& session, const proto::GoalSet& goal);
+int remove_goal(const Session& session, const std::string& id);
+int clear_goals(const Session& session, const std::string& figure);
+
+int get_pose(const Session& session, const std::string& figure);
+int reset_pose(const Session& session, const std::string& figure, const std::string& to);
+int mirror_pose(const Session& session, const std::string& figure);
+
+int list_trackers(const Session& session);
+
+int list_scenes(const Session& session);
+int new_scene(const Session& session, const std::string& template_name);
+int save_scene(const Session& session, const std::string& name);
+int open_scene(const Session& session, const std::string& name);
+
+// `params` of "-" is read from standard input.
+int run_call(const Session& session, const std::string& method, const std::string& params);
+
+}  // namespace posed::cli

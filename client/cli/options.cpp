@@ -1,0 +1,152 @@
+#include "client/cli/options.h"
+
+#include <CLI/CLI.hpp>
+#include <map>
+#include <memory>
+
+namespace posed::cli {
+namespace {
+
+// A subcommand's callback only notes what to do; it is done when the daemon is there.
+using Run = std::function<int(const Session&)>;
+
+void add_watch(CLI::App& app, Run& run) {
+  static const std::map<std::string, proto::Stream> kNames{{"pose", proto::Stream::pose},
+                                                           {"tracker", proto::Stream::tracker},
+                                                           {"stats", proto::Stream::stats},
+                                                           {"scene", proto::Stream::scene}};
+  auto watch = std::make_shared<Watch>();
+  auto* command = app.add_subcommand("watch", "follow a stream, one line a frame");
+  command->add_option("stream", watch->stream, "pose, tracker, stats or scene")
+      ->transform(CLI::CheckedTransformer(kNames, CLI::ignore_case).description(""))
+      ->type_name("STREAM");
+  command->add_option("--rate", watch->rate_hz, "frames a second at most")->check(CLI::PositiveNumber)->type_name("HZ");
+  command->add_option("--count", watch->count, "stop after so many frames")->check(CLI::PositiveNumber)->type_name("N");
+  command->add_option("--figure", watch->figure, "poses of this figure only")->type_name("ID");
+  command->callback([&run, watch] { run = [watch](const Session& s) { return run_watch(s, *watch); }; });
+}
+
+void add_goal(CLI::App& app, Run& run) {
+  auto* goal = app.add_subcommand("goal", "list, set and remove goals");
+  goal->require_subcommand(1);
+  goal->add_subcommand("list", "all goals")->callback([&run] { run = list_goals; });
+
+  struct Set {
+    std::string at, id, figure;
+    std::vector<double> position;
+    double weight = 0.0;
+  };
+  auto args = std::make_shared<Set>();
+  auto* set = goal->add_subcommand("set", "pull a segment's touch point, or a site, to a point");
+  set->add_option("at", args->at, "right_hand, or right_hand/fingertip")->required();
+  set->add_option("position", args->position, "metres, Z up")->required()->expected(3)->type_name("X Y Z");
+  set->add_option("--id", args->id, "default: FIGURE.SEGMENT.position");
+  set->add_option("--figure", args->figure, "needed where there are several");
+  auto* weight = set->add_option("--weight", args->weight, "default: 10")->type_name("W");
+  set->callback([&run, args, weight] {
+    proto::GoalSet edit;
+    edit.edit.id = args->id;
+    edit.edit.figure = args->figure;
+    Attachment at;
+    const std::size_t slash = args->at.find('/');
+    at.segment = args->at.substr(0, slash);
+    if (slash != std::string::npos) at.site = args->at.substr(slash + 1);
+    edit.edit.at = at;
+    edit.edit.position = Vec3(args->position[0], args->position[1], args->position[2]);
+    if (*weight) edit.edit.weight = args->weight;
+    run = [edit](const Session& s) { return set_goal(s, edit); };
+  });
+
+  auto id = std::make_shared<std::string>();
+  auto* remove = goal->add_subcommand("remove", "remove one goal");
+  remove->add_option("id", *id)->required();
+  remove->callback([&run, id] { run = [id](const Session& s) { return remove_goal(s, *id); }; });
+
+  auto figure = std::make_shared<std::string>();
+  auto* clear = goal->add_subcommand("clear", "remove all goals");
+  clear->add_option("--figure", *figure, "of this figure only");
+  clear->callback([&run, figure] { run = [figure](const Session& s) { return clear_goals(s, *figure); }; });
+}
+
+void add_pose(CLI::App& app, Run& run) {
+  auto* pose = app.add_subcommand("pose", "read and change the pose");
+  pose->require_subcommand(1);
+  auto figure = std::make_shared<std::string>();
+  auto to = std::make_shared<std::string>("rest");
+
+  auto* get = pose->add_subcommand("get", "the newest pose, with its goals");
+  get->callback([&run, figure] { run = [figure](const Session& s) { return get_pose(s, *figure); }; });
+  auto* reset = pose->add_subcommand("reset", "back to the rest pose, or to the start pose");
+  reset->add_option("to", *to, "rest or start")->check(CLI::IsMember({"rest", "start"}).description(""));
+  reset->callback([&run, figure, to] { run = [figure, to](const Session& s) { return reset_pose(s, *figure, *to); }; });
+  auto* mirror = pose->add_subcommand("mirror", "exchange left and right");
+  mirror->callback([&run, figure] { run = [figure](const Session& s) { return mirror_pose(s, *figure); }; });
+  for (CLI::App* command : {get, reset, mirror}) {
+    command->add_option("--figure", *figure, "needed where there are several")->type_name("ID");
+  }
+}
+
+void add_tracker(CLI::App& app, Run& run) {
+  auto* tracker = app.add_subcommand("tracker", "the trackers and how they are");
+  tracker->callback([&run] { run = list_trackers; });
+  tracker->add_subcommand("list", "all trackers (the default)");
+}
+
+void add_scene(CLI::App& app, Run& run) {
+  auto* scene = app.add_subcommand("scene", "list, begin, save and open scenes");
+  scene->require_subcommand(1);
+  scene->add_subcommand("list", "saved scenes and templates")->callback([&run] { run = list_scenes; });
+  const auto add = [&](const char* name, const char* what, const char* help,
+                       int (*act)(const Session&, const std::string&)) {
+    auto value = std::make_shared<std::string>();
+    auto* command = scene->add_subcommand(name, help);
+    command->add_option(what, *value)->required();
+    command->callback([&run, value, act] { run = [value, act](const Session& s) { return act(s, *value); }; });
+  };
+  add("new", "template", "begin anew from a template", new_scene);
+  add("save", "name", "keep the scene under a name", save_scene);
+  add("open", "name", "go on with a kept scene", open_scene);
+}
+
+void add_call(CLI::App& app, Run& run) {
+  struct Call {
+    std::string method, params = "{}";
+  };
+  auto call = std::make_shared<Call>();
+  auto* command = app.add_subcommand("call", "call any method of the protocol");
+  command->add_option("method", call->method, "as in session.status")->required();
+  command->add_option("params", call->params, "a JSON object; - reads it from standard input");
+  command->callback(
+      [&run, call] { run = [call](const Session& s) { return run_call(s, call->method, call->params); }; });
+}
+
+}  // namespace
+
+std::variant<Options, int> parse_options(int argc, const char* const* argv) {
+  Options options;
+  options.host = "tcp://127.0.0.1:" + std::to_string(proto::kDefaultPort);
+  CLI::App app("posectl talks to a running posed.", "posectl");
+  app.require_subcommand(1);
+  app.fallthrough();
+  app.add_option("--host", options.host, "where posed listens")
+      ->envname("POSED_HOST")
+      ->type_name("tcp://HOST:PORT")
+      ->capture_default_str();
+  app.add_flag("--json", options.json, "results as JSON, one a line");
+  app.footer("Exit codes: 0 done, 1 the daemon refused, 2 wrong usage, 3 no daemon or the connection was lost.");
+  app.add_subcommand("status", "how the daemon is")->callback([&options] { options.run = run_status; });
+  add_watch(app, options.run);
+  add_goal(app, options.run);
+  add_pose(app, options.run);
+  add_tracker(app, options.run);
+  add_scene(app, options.run);
+  add_call(app, options.run);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kDone : kUsage;
+  }
+  return options;
+}
+
+}  // namespace posed::cli

@@ -1,0 +1,44 @@
+// What the commands share: errors with their exit codes, and results on standard output.
+#pragma once
+
+#include <cstdio>
+#include <string>
+
+#include "client/cli/commands.h"
+
+namespace posed::cli {
+
+// Says the error on standard error, with its path and hint; the exit code for it.
+int fail(const Error& error);
+
+void print_line(std::string_view text);
+
+// At most `size` of printf's output as a string.
+template <class... Args>
+std::string format(const char* pattern, Args... args) {
+  const int size = std::snprintf(nullptr, 0, pattern, args...);
+  std::string text(static_cast<std::size_t>(size) + 1, '\0');
+  std::snprintf(text.data(), text.size(), pattern, args...);
+  text.pop_back();
+  return text;
+}
+
+// Sends a request and prints its result: as it came with --json, else as `show` says.
+template <class R, class Show>
+int request(const Session& session, const proto::Params& params, const Show& show) {
+  const auto text = session.client.request(params);
+  if (!text) return fail(text.error());
+  if (session.json) {
+    print_line(*text);
+    return kDone;
+  }
+  const auto result = proto::decode_message<R>(*text);
+  if (!result) return fail(result.error());
+  show(*result);
+  return kDone;
+}
+
+// For edits: says `done` and the scene's new revision.
+int edit(const Session& session, const proto::Params& params, const std::string& done);
+
+}  // namespace posed::cli

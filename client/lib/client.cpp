@@ -1,0 +1,242 @@
+#include "client/lib/client.h"
+
+#include <array>
+#include <boost/asio/connect.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/write.hpp>
+#include <deque>
+
+#include "client/lib/address.h"
+#include "proto/framing.h"
+
+namespace posed::client {
+namespace {
+
+namespace asio = boost::asio;
+using asio::ip::tcp;
+using boost::system::error_code;
+using TimePoint = std::chrono::steady_clock::time_point;
+
+constexpr std::size_t kMaxKept = 4096;                  // frames that nobody has asked for yet
+constexpr std::size_t kMaxLine = std::size_t{1} << 30;  // we trust our daemon: a reply may be longer than a request
+
+TimePoint from_now(Client::Duration duration) {
+  return std::chrono::steady_clock::now() + duration;
+}
+
+}  // namespace
+
+struct Client::Impl {
+  // Runs until `done` or `until`; with a last look when the time is already over.
+  bool wait(const bool& done, TimePoint until) {
+    io.restart();
+    while (!done && io.run_one_until(until) > 0) {
+    }
+    if (!done) io.poll();
+    return done;
+  }
+
+  Error lose(std::string why) {
+    lost_why = std::move(why);
+    error_code ignored;
+    socket.close(ignored);
+    return gone();
+  }
+  Error gone() const {
+    return {"connection_lost", "the connection to " + address.text() + " is lost: " + lost_why, "", "connect again"};
+  }
+  Error late() const { return {"timeout", "the daemon at " + address.text() + " did not answer in time", "", ""}; }
+
+  Status connect(TimePoint until);
+  Status send(std::string line, TimePoint until);
+  Result<proto::Incoming> receive(TimePoint until);
+  Result<std::string> await_reply(std::int64_t id, TimePoint until);
+  void keep(proto::Incoming frame);
+
+  Address address;
+  Duration timeout{5000};
+  asio::io_context io{1};
+  tcp::socket socket{io};
+  std::string lost_why;  // empty: connected
+  proto::LineSplitter splitter{kMaxLine};
+  std::array<char, 64 << 10> buffer;
+  std::size_t received = 0;
+  bool reading = false, read_done = false;
+  error_code read_error;
+  std::deque<proto::Incoming> frames;
+  std::array<std::uint64_t, proto::kStreams> lost{};
+  std::array<int, proto::kStreams> credit{};
+  std::int64_t next_id = 1;
+};
+
+Status Client::Impl::connect(TimePoint until) {
+  const auto failed = [&](const error_code& error) {
+    if (error == asio::error::connection_refused) {
+      return Error{"cannot_connect", "nothing listens at " + address.text(), "", "start the daemon with ./deploy/run"};
+    }
+    return Error{"cannot_connect", "cannot connect to " + address.text() + ": " + error.message(), "",
+                 "is the address right?"};
+  };
+  error_code error;
+  tcp::resolver resolver(io);
+  const auto endpoints = resolver.resolve(address.host, address.port, error);
+  if (error) return failed(error);
+  bool done = false;
+  asio::async_connect(socket, endpoints, [&](error_code e, const tcp::endpoint&) {
+    error = e;
+    done = true;
+  });
+  if (!wait(done, until)) {
+    error_code ignored;
+    socket.close(ignored);
+    io.restart();
+    io.run();
+    return failed(asio::error::timed_out);
+  }
+  if (error) return failed(error);
+  socket.set_option(tcp::no_delay(true), error);
+  return Ok{};
+}
+
+Status Client::Impl::send(std::string line, TimePoint until) {
+  if (!lost_why.empty()) return gone();
+  line.push_back('\n');
+  // Shared with the handler: it may outlive this call if the time runs out.
+  auto text = std::make_shared<const std::string>(std::move(line));
+  auto done = std::make_shared<std::pair<bool, error_code>>();
+  asio::async_write(socket, asio::buffer(*text), [text, done](error_code e, std::size_t) { *done = {true, e}; });
+  // Half a line would spoil all that follow.
+  if (!wait(done->first, until)) return lose("it takes no more requests");
+  if (done->second) return lose(done->second.message());
+  return Ok{};
+}
+
+Result<proto::Incoming> Client::Impl::receive(TimePoint until) {
+  for (;;) {
+    if (const auto line = splitter.next()) {
+      auto incoming = proto::decode_incoming(*line);
+      if (!incoming) lose(incoming.error().message);
+      return incoming;
+    }
+    if (!lost_why.empty()) return gone();
+    if (!reading) {
+      reading = true;
+      read_done = false;
+      socket.async_read_some(asio::buffer(buffer), [this](error_code e, std::size_t size) {
+        read_error = e;
+        received = size;
+        read_done = true;
+      });
+    }
+    if (!wait(read_done, until)) return late();
+    reading = false;
+    if (read_error) return lose(read_error == asio::error::eof ? "the daemon has closed it" : read_error.message());
+    if (!splitter.push(std::string_view(buffer.data(), received))) return lose("a line is too long");
+  }
+}
+
+void Client::Impl::keep(proto::Incoming frame) {
+  if (!frame.stream) return;
+  const auto stream = static_cast<std::size_t>(*frame.stream);
+  if (frame.method == "stream.lost") lost[stream] += frame.dropped;
+  if (frame.method != "stream.frame") return;
+  if (frames.size() == kMaxKept) {
+    ++lost[static_cast<std::size_t>(*frames.front().stream)];
+    frames.pop_front();
+  }
+  frames.push_back(std::move(frame));
+}
+
+Result<std::string> Client::Impl::await_reply(std::int64_t id, TimePoint until) {
+  for (;;) {
+    auto incoming = receive(until);
+    if (!incoming) return incoming.error();
+    if (incoming->id == id) {
+      if (incoming->error) return *incoming->error;
+      return std::move(incoming->result);
+    }
+    // An error without an id is said of the whole connection, before it is closed. A reply to another id is one that
+    // came too late for its call.
+    if (!incoming->id && incoming->error) return *incoming->error;
+    if (!incoming->id) keep(std::move(*incoming));
+  }
+}
+
+Client::Client(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Client::~Client() = default;
+Client::Client(Client&&) noexcept = default;
+Client& Client::operator=(Client&&) noexcept = default;
+
+Result<Client> Client::connect(std::string_view address, Duration timeout) {
+  auto parsed = parse_address(address);
+  if (!parsed) return parsed.error();
+  auto impl = std::make_unique<Impl>();
+  impl->address = std::move(*parsed);
+  impl->timeout = timeout;
+  const Status status = impl->connect(from_now(timeout));
+  if (!status) return status.error();
+  return Client(std::move(impl));
+}
+
+void Client::set_timeout(Duration timeout) {
+  impl_->timeout = timeout;
+}
+
+Result<std::string> Client::call(std::string_view method, std::string_view params_json) {
+  const std::int64_t id = impl_->next_id++;
+  auto line = proto::encode_call(id, method, params_json);
+  if (!line) return line.error();
+  const TimePoint until = from_now(impl_->timeout);
+  const Status sent = impl_->send(std::move(*line), until);
+  if (!sent) return sent.error();
+  return impl_->await_reply(id, until);
+}
+
+Result<std::string> Client::request(const proto::Params& params) {
+  const std::int64_t id = impl_->next_id++;
+  const TimePoint until = from_now(impl_->timeout);
+  const Status sent = impl_->send(proto::encode_request(id, params), until);
+  if (!sent) return sent.error();
+  return impl_->await_reply(id, until);
+}
+
+Status Client::subscribe(const proto::StreamSubscribe& subscription) {
+  // Frames that are kept are the old subscription's.
+  std::erase_if(impl_->frames, [&](const proto::Incoming& frame) { return frame.stream == subscription.stream; });
+  const auto result = request(subscription);
+  if (!result) return result.error();
+  impl_->credit[static_cast<std::size_t>(subscription.stream)] = subscription.credit;
+  return Ok{};
+}
+
+Status Client::unsubscribe(proto::Stream stream) {
+  const auto result = request(proto::StreamUnsubscribe{stream});
+  if (!result) return result.error();
+  std::erase_if(impl_->frames, [&](const proto::Incoming& frame) { return frame.stream == stream; });
+  return Ok{};
+}
+
+Result<proto::Incoming> Client::next(Duration timeout) {
+  const TimePoint until = from_now(timeout);
+  while (impl_->frames.empty()) {
+    auto incoming = impl_->receive(until);
+    if (!incoming) return incoming.error();
+    if (!incoming->id && incoming->error) return *incoming->error;
+    if (!incoming->id) impl_->keep(std::move(*incoming));
+  }
+  proto::Incoming frame = std::move(impl_->frames.front());
+  impl_->frames.pop_front();
+  if (impl_->credit[static_cast<std::size_t>(*frame.stream)] > 0) {
+    const Status sent =
+        impl_->send(proto::encode_notification(proto::StreamAck{*frame.stream, frame.seq}), from_now(impl_->timeout));
+    if (!sent) return sent.error();
+  }
+  return frame;
+}
+
+std::uint64_t Client::lost(proto::Stream stream) const {
+  return impl_->lost[static_cast<std::size_t>(stream)];
+}
+
+}  // namespace posed::client

@@ -1,0 +1,55 @@
+// A connection to the daemon for scripts and tools: calls that wait for their reply, and streams that are read frame by
+// frame. Replies and frames share one connection; frames that come in between are kept. One thread at a time.
+//
+// Errors: what the daemon refused has its code ("unknown_segment"); otherwise `bad_address`, `cannot_connect`,
+// `connection_lost`, `timeout` or `bad_reply`. After `connection_lost` and `bad_reply` every call fails.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "common/result.h"
+#include "proto/codec.h"
+
+namespace posed::client {
+
+class Client {
+ public:
+  using Duration = std::chrono::milliseconds;
+
+  // `address` as in "tcp://127.0.0.1:19870". The time-out is also that of the calls to come.
+  static Result<Client> connect(std::string_view address, Duration timeout = std::chrono::seconds(5));
+  ~Client();
+  Client(Client&&) noexcept;
+  Client& operator=(Client&&) noexcept;
+
+  void set_timeout(Duration timeout);
+
+  // Both give the JSON text of the result.
+  Result<std::string> call(std::string_view method, std::string_view params_json = "{}");
+  Result<std::string> request(const proto::Params& params);
+
+  // call<proto::StatusResult>(proto::SessionStatus{})
+  template <class R, class P>
+  Result<R> call(const P& params) {
+    auto result = request(params);
+    if (!result) return result.error();
+    return proto::decode_message<R>(*result);
+  }
+
+  Status subscribe(const proto::StreamSubscribe& subscription);
+  Status unsubscribe(proto::Stream stream);
+  // The next frame of any stream; acknowledged if its subscription has credit.
+  Result<proto::Incoming> next(Duration timeout);
+  // Frames that the daemon left out because we read too slowly, or that came while nobody asked for them.
+  std::uint64_t lost(proto::Stream stream) const;
+
+ private:
+  struct Impl;
+  explicit Client(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace posed::client

@@ -1,0 +1,37 @@
+// Numbers and names as the panels say them.
+import type { At, GoalPose } from "../protocol/types";
+
+const kLowest = 0.1;
+const kHighest = 1000;
+
+export function atText(at: At | undefined): string {
+  if (at === undefined) return "?";
+  if (typeof at === "string") return at.replaceAll("_", " ").replace("/", " / ");
+  return `${at.segment.replaceAll("_", " ")} (${at.point.map((value) => value.toFixed(2)).join(", ")})`;
+}
+
+export function errorText(metres: number): string {
+  const millimetres = metres * 1000;
+  return `${millimetres < 100 ? millimetres.toFixed(1) : millimetres.toFixed(0)} mm`;
+}
+
+export function causesText(causes: GoalPose["causes"]): string {
+  const words = (causes ?? []).map(({ goal, beyond_m }) =>
+    goal !== undefined ? `held by ${goal}` : beyond_m !== undefined ? `${errorText(beyond_m)} beyond reach` : "",
+  );
+  return words.filter(Boolean).join(" · ");
+}
+
+/** The slider runs over the decades from 0.1 to 1000; two digits are as fine as a hand sets it. */
+export function weightFromSlider(value: number): number {
+  return Number((10 ** value).toPrecision(2));
+}
+
+export function sliderFromWeight(weight: number): number {
+  const within = Math.min(Math.max(weight, kLowest), kHighest);
+  return Math.round(Math.log10(within) * 100) / 100;
+}
+
+export function weightText(weight: number): string {
+  return String(Number(weight.toPrecision(3)));
+}

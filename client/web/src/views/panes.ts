@@ -1,0 +1,54 @@
+// The four panes of the page that lie over the one canvas: titles, places, and which one is maximised.
+import { titles, viewNames, type ViewName } from "./names";
+import type { PaneRect } from "./projection";
+
+export class Panes {
+  readonly elements: Record<ViewName, HTMLElement>;
+  maximised: ViewName | null = null;
+  version = 0;
+
+  constructor(private readonly parent: HTMLElement) {
+    this.elements = Object.fromEntries(viewNames.map((name) => [name, this.build(name)])) as Record<ViewName, HTMLElement>;
+    new ResizeObserver(() => this.version++).observe(parent);
+  }
+
+  toggle(name: ViewName | null): void {
+    this.maximised = this.maximised === name ? null : name;
+    this.parent.classList.toggle("one", this.maximised !== null);
+    for (const view of viewNames) this.elements[view].hidden = this.maximised !== null && view !== this.maximised;
+    this.version++;
+  }
+
+  visible(): ViewName[] {
+    return viewNames.filter((name) => !this.elements[name].hidden);
+  }
+
+  rect(name: ViewName): PaneRect {
+    return this.elements[name].getBoundingClientRect();
+  }
+
+  private build(name: ViewName): HTMLElement {
+    const { key, name: called, axes, says } = titles[name];
+    const pane = document.createElement("section");
+    pane.className = `pane pane-${name}`;
+    pane.dataset["testid"] = `view-${name}`;
+    pane.dataset["view"] = name;
+    const title = document.createElement("header");
+    title.dataset["testid"] = `title-${name}`;
+    title.title = `Double-click or press ${key} to maximise`;
+    title.append(span("pane-key", key), span("pane-name", called));
+    for (const [axis, arrow] of axes) title.append(span(`axis axis-${axis}`, `${axis.toUpperCase()}${arrow}`));
+    title.append(span("pane-says", says));
+    title.addEventListener("dblclick", () => this.toggle(name));
+    pane.append(title);
+    this.parent.append(pane);
+    return pane;
+  }
+}
+
+function span(className: string, text: string): HTMLSpanElement {
+  const element = document.createElement("span");
+  element.className = className;
+  element.textContent = text;
+  return element;
+}

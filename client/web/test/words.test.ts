@@ -1,0 +1,29 @@
+import { describe, expect, it } from "vitest";
+import { connectionText } from "../src/panels/bar";
+import { atText, causesText, errorText, sliderFromWeight, weightFromSlider } from "../src/panels/words";
+
+describe("words", () => {
+  it("name what a goal pulls", () => {
+    expect(atText("right_hand")).toBe("right hand");
+    expect(atText("right_hand/fingertip")).toBe("right hand / fingertip");
+    expect(atText({ segment: "head", point: [0, 0, 0.1] })).toBe("head (0.00, 0.00, 0.10)");
+  });
+
+  it("say errors in millimetres and name their causes", () => {
+    expect(errorText(0.00042)).toBe("0.4 mm");
+    expect(errorText(0.359)).toBe("359 mm");
+    expect(causesText([{ goal: "g2" }, { beyond_m: 0.12 }])).toBe("held by g2 · 120 mm beyond reach");
+    expect(causesText(undefined)).toBe("");
+  });
+
+  it("run the weight slider over four decades and back", () => {
+    expect([-1, 0, 1, 3].map(weightFromSlider)).toEqual([0.1, 1, 10, 1000]);
+    for (const weight of [0.1, 0.5, 2, 10, 40, 100, 1000]) expect(weightFromSlider(sliderFromWeight(weight))).toBe(weight);
+    expect(sliderFromWeight(0)).toBe(-1);
+  });
+
+  it("count down to the next attempt", () => {
+    expect(connectionText({ phase: "lost", retryAtMs: 3200 }, 1000)).toBe("lost, reconnecting in 3 s");
+    expect(connectionText({ phase: "lost", retryAtMs: 3200 }, 9000)).toBe("lost, reconnecting in 0 s");
+  });
+});

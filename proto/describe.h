@@ -1,0 +1,307 @@
+// Private to the codec: the fields of every message, once, for reading and for writing. A visitor is a Reader or a
+// Writer.
+#pragma once
+
+#include "proto/read.h"
+#include "proto/write.h"
+
+// A message without fields.
+#define POSED_EMPTY(Type) \
+  template <class V>      \
+  void describe(V&, Type&) {}
+
+namespace posed::proto {
+
+// ---- vocabulary ----
+
+template <class V>
+void describe(V& v, Software& m) {
+  v.required("name", m.name);
+  v.optional("version", m.version);
+}
+
+template <class V>
+void describe(V& v, Site& m) {
+  v.required("segment", m.segment);
+  v.required("point", m.point);
+}
+
+template <class V>
+void describe(V& v, Joint& m) {
+  v.required("name", m.name);
+  v.required("type", m.type);
+  v.required("position", m.parent_from_joint.position);
+  v.optional("quat_xyzw", m.parent_from_joint.rotation);
+  v.optional("axes", m.axes);
+  v.optional("limits", m.limits);
+  if (V::kReads || m.bend_axis != kZero) v.optional("bend_axis", m.bend_axis);
+}
+
+template <class V>
+void describe(V& v, Segment& m) {
+  v.required("name", m.name);
+  v.optional("parent", m.parent);
+  v.required("joint", m.joint);
+  v.required("touch_point", m.touch_point);
+  v.optional("shape", m.shapes);
+  v.optional("mass", m.mass);
+}
+
+template <class V>
+void describe(V& v, FigureDocument& m) {
+  std::string format = "posed.figure/1";
+  v.required("format", format);
+  if (format != "posed.figure/1")
+    v.fail_at("format", "bad_figure", "the format is not known", "use \"posed.figure/1\"");
+  v.required("root", m.root);
+  v.required("segments", m.segments);
+  v.optional("lever", m.lever);
+  v.optional("sites", m.sites);
+  v.optional("mirror", m.mirror);
+  v.optional("aliases", m.aliases);
+}
+
+// ---- scene documents: the id is the key of the map ----
+
+template <class V>
+void describe_goal(V& v, Goal& m) {
+  v.required("figure", m.figure);
+  if constexpr (!V::kReads) v.constant("kind", "position");
+  v.reserved("kind", "\"position\"");
+  v.required("at", m.at);
+  v.required("position", m.position);
+  if constexpr (!V::kReads) v.constant("relative_to", "world");
+  v.reserved("relative_to", "\"world\"");
+  v.optional("weight", m.weight);
+  if constexpr (!V::kReads) v.constant("priority", 0);
+  v.reserved("priority", "0");
+  v.optional("tolerance", m.tolerance);
+  v.optional("enabled", m.enabled);
+  v.optional("label", m.label);
+  v.verbatim("user", m.user);
+}
+template <class V>
+void describe(V& v, Goal& m) {
+  describe_goal(v, m);
+}
+
+struct GoalTarget {
+  std::string& goal;
+};
+template <class V>
+void describe(V& v, GoalTarget& m) {
+  v.reserved("joint");
+  v.reserved("camera");
+  v.reserved("object");
+  v.required("goal", m.goal);
+}
+
+template <class V>
+void describe_binding(V& v, Binding& m) {
+  v.required("sensor", m.sensor);
+  GoalTarget to{m.goal};
+  v.required("to", to);
+  v.optional("axes", m.axes);
+  v.optional("mode", m.mode);
+  v.optional("scale", m.scale);
+  v.reserved("clutch");
+  v.reserved("filter");
+  v.optional("label", m.label);
+  v.verbatim("user", m.user);
+}
+template <class V>
+void describe(V& v, Binding& m) {
+  describe_binding(v, m);
+}
+
+template <class V>
+void describe(V& v, FigureEntry& m) {
+  if (V::kReads || !m.template_name.empty()) {
+    v.optional("template", m.template_name);
+    v.optional("stature", m.stature);
+  }
+  v.optional("document", m.document);
+  v.optional("q", m.q);
+  v.optional("label", m.label);
+  v.verbatim("user", m.user);
+}
+
+template <class V>
+void describe(V& v, SceneDocument& m) {
+  std::string format = "posed.scene/1";
+  v.required("format", format);
+  if (format != "posed.scene/1") v.fail_at("format", "bad_scene", "the format is not known", "use \"posed.scene/1\"");
+  v.required("figures", m.figures);
+  v.required("goals", m.goals);
+  if constexpr (!V::kReads) v.constant("objects", Json::object());
+  v.reserved("objects", "{}");
+  v.required("bindings", m.bindings);
+  if constexpr (!V::kReads) v.constant("cameras", Json::object());
+  v.reserved("cameras", "{}");
+}
+
+// ---- requests ----
+
+template <class V>
+void describe(V& v, SessionHello& m) {
+  v.optional("protocol", m.protocol);
+  if (m.protocol != kProtocol) v.fail_at("protocol", "not_available", "only protocol 1 is spoken here", "use 1");
+  v.optional("client", m.client);
+  v.optional("user", m.user);
+  v.reserved("token");
+  v.reserved("resume");
+}
+POSED_EMPTY(SessionPing)
+POSED_EMPTY(SessionStatus)
+POSED_EMPTY(SessionList)
+POSED_EMPTY(FigureList)
+POSED_EMPTY(GoalList)
+POSED_EMPTY(BindingList)
+POSED_EMPTY(SolverGet)
+POSED_EMPTY(SceneGet)
+POSED_EMPTY(SceneList)
+POSED_EMPTY(TrackerList)
+POSED_EMPTY(EmptyResult)
+
+template <class V>
+void describe(V& v, FigureSet& m) {
+  v.required("id", m.id);
+  v.optional("template", m.template_name);
+  v.optional("stature", m.stature);
+  v.optional("document", m.document);
+  v.optional("label", m.label);
+  v.verbatim("user", m.user);
+}
+
+template <class V, class M>
+requires std::is_same_v<M, FigureGet> || std::is_same_v<M, FigureRemove> || std::is_same_v<M, GoalGet> ||
+    std::is_same_v<M, GoalRemove> || std::is_same_v<M, BindingGet> || std::is_same_v<M, BindingRemove>
+void describe(V& v, M& m) {
+  v.required("id", m.id);
+}
+
+template <class V>
+void describe(V& v, GoalSet& m) {
+  v.optional("id", m.edit.id);
+  v.optional("figure", m.edit.figure);
+  v.optional("at", m.edit.at);
+  v.optional("position", m.edit.position);
+  v.reserved("kind", "\"position\"");
+  for (const char* kind : {"orientation", "aim", "plane", "line", "distance", "balance", "posture"}) v.reserved(kind);
+  v.reserved("relative_to", "\"world\"");
+  v.reserved("priority", "0");
+  v.optional("weight", m.edit.weight);
+  v.optional("tolerance", m.edit.tolerance);
+  v.optional("enabled", m.edit.enabled);
+  v.optional("label", m.edit.label);
+  v.verbatim("user", m.edit.user);
+}
+
+template <class V>
+void describe(V& v, GoalClear& m) {
+  v.optional("figure", m.figure);
+}
+
+template <class V>
+void describe(V& v, BindingSet& m) {
+  v.optional("id", m.edit.id);
+  v.optional("sensor", m.edit.sensor);
+  std::string goal = m.edit.goal.value_or("");
+  GoalTarget to{goal};
+  if ((V::kReads || m.edit.goal) && v.optional("to", to)) m.edit.goal = goal;
+  v.optional("axes", m.edit.axes);
+  v.optional("mode", m.edit.mode);
+  v.optional("scale", m.edit.scale);
+  v.reserved("clutch");
+  v.reserved("filter");
+  v.optional("label", m.edit.label);
+  v.verbatim("user", m.edit.user);
+}
+
+template <class V>
+void describe(V& v, JointSet& m) {
+  v.optional("figure", m.figure);
+  v.required("joint", m.joint);
+  v.optional("value", m.value);
+  v.optional("halfplane", m.halfplane);
+  v.optional("deviation", m.deviation);
+  v.optional("twist", m.twist);
+  v.reserved("hold");
+}
+
+template <class V>
+void describe(V& v, JointGet& m) {
+  v.optional("figure", m.figure);
+  v.required("joint", m.joint);
+}
+
+template <class V>
+void describe(V& v, PoseGet& m) {
+  v.optional("figure", m.figure);
+  v.optional("min_revision", m.min_revision);
+  v.optional("wait_ms", m.wait_ms);
+  if (m.wait_ms < 0 || m.wait_ms > 10'000)
+    v.fail_at("wait_ms", "out_of_range", "the wait is too long", "0 to 10000 ms");
+}
+
+template <class V>
+void describe(V& v, PoseSet& m) {
+  v.optional("figure", m.figure);
+  v.required("q", m.q);
+}
+
+template <class V>
+void describe(V& v, PoseReset& m) {
+  v.optional("figure", m.figure);
+  v.optional("to", m.to);
+  if (m.to != "rest" && m.to != "start") v.fail_at("to", "invalid_params", "no pose is called that", "rest or start");
+}
+
+template <class V>
+void describe(V& v, PoseMirror& m) {
+  v.optional("figure", m.figure);
+}
+
+template <class V>
+void describe(V& v, SolverSet& m) {
+  v.optional("method", m.method);
+  v.optional("iterations", m.iterations);
+  v.optional("branch_iterations", m.branch_iterations);
+}
+
+template <class V>
+void describe(V& v, SceneNew& m) {
+  v.optional("template", m.template_name);
+}
+
+template <class V, class M>
+requires std::is_same_v<M, SceneSave> || std::is_same_v<M, SceneOpen>
+void describe(V& v, M& m) {
+  v.required("name", m.name);
+}
+
+template <class V>
+void describe(V& v, StreamSubscribe& m) {
+  v.required("stream", m.stream);
+  v.optional("figures", m.figures);
+  v.optional("fields", m.fields);
+  v.optional("max_rate_hz", m.max_rate_hz);
+  if (m.max_rate_hz < 0) v.fail_at("max_rate_hz", "out_of_range", "a rate is not negative", "0 means no cap");
+  v.optional("credit", m.credit);
+  if (m.credit < 0 || m.credit > 1000)
+    v.fail_at("credit", "out_of_range", "credit is a number of frames", "1 to 1000; 0 means none");
+  v.reserved("encoding", "\"json\"");
+}
+
+template <class V>
+void describe(V& v, StreamUnsubscribe& m) {
+  v.required("stream", m.stream);
+}
+
+template <class V>
+void describe(V& v, StreamAck& m) {
+  v.required("stream", m.stream);
+  v.required("seq", m.seq);
+}
+
+}  // namespace posed::proto

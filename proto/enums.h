@@ -1,0 +1,51 @@
+// Private to the codec: the words of the wire for each enumeration.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "proto/messages.h"
+
+namespace posed::proto {
+
+template <class E>
+struct EnumNames;
+
+template <>
+struct EnumNames<JointType> {
+  static constexpr std::array names{"free", "ball", "universal", "hinge", "prismatic", "fixed"};
+};
+template <>
+struct EnumNames<Shape::Kind> {
+  static constexpr std::array names{"capsule", "ellipsoid", "box"};
+};
+template <>
+struct EnumNames<Binding::Mode> {
+  static constexpr std::array names{"absolute", "relative"};
+};
+template <>
+struct EnumNames<GoalState> {
+  static constexpr std::array names{"off", "reached", "unreachable", "limited", "balanced"};
+};
+template <>
+struct EnumNames<SolveStatus> {
+  static constexpr std::array names{"converged", "deadline", "stalled"};
+};
+template <>
+struct EnumNames<Stream> {
+  static constexpr std::array names{"pose", "tracker", "scene", "stats"};
+};
+
+template <class E>
+const char* word(E value) {
+  return EnumNames<E>::names[static_cast<std::size_t>(value)];
+}
+
+template <class E>
+std::string enum_words() {
+  std::string all = "one of:";
+  for (const char* name : EnumNames<E>::names) all.append(" ").append(name);
+  return all;
+}
+
+}  // namespace posed::proto

@@ -1,0 +1,30 @@
+// What the command line and the configuration file say.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/log.h"
+
+namespace posed {
+
+struct Config {
+  std::string host = "127.0.0.1";
+  std::uint16_t port = 19870;
+  std::vector<std::string> trackers;  // KIND[:ARG]
+  std::filesystem::path data;
+  std::filesystem::path viewer;
+  std::filesystem::path scenes;
+  std::string scene_template = "standing";
+  LogLevel log = LogLevel::info;
+  double solve_deadline_ms = 20.0;  // a solve that takes longer ends with the best pose so far
+};
+
+// Reads the arguments. Where the program has to end instead (--help, --version, a mistake), prints what there is to
+// say, one line for a mistake, and sets `exit_code`: 0 or 2.
+std::optional<Config> read_config(int argc, const char* const* argv, int& exit_code);
+
+}  // namespace posed

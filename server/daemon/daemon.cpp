@@ -1,0 +1,111 @@
+#include "server/daemon/daemon.h"
+
+#include <set>
+#include <stdexcept>
+#include <vector>
+
+#include "server/daemon/loop.h"
+#include "server/daemon/pipeline.h"
+#include "server/daemon/templates.h"
+#include "server/tracker/registry.h"
+
+namespace posed {
+namespace {
+
+net::Options network_options(const Config& config) {
+  net::Options options;
+  options.host = config.host;
+  options.port = config.port;
+  options.viewer = config.viewer;
+  return options;
+}
+
+std::vector<std::unique_ptr<tracker::Tracker>> make_trackers(const Config& config, const Clock& clock) {
+  std::vector<std::unique_ptr<tracker::Tracker>> trackers;
+  std::set<std::string> ids;
+  for (const std::string& spec : config.trackers) {
+    auto made = tracker::make_tracker(spec, [&clock] { return clock.now(); });
+    if (!made) {
+      const Error& error = made.error();
+      throw std::runtime_error("--tracker " + spec + ": " + error.message +
+                               (error.hint.empty() ? "" : " (" + error.hint + ")"));
+    }
+    if (!ids.insert((*made)->id()).second)
+      throw std::runtime_error("two trackers are called " + (*made)->id() + ": give --tracker " + spec + " once");
+    trackers.push_back(std::move(*made));
+  }
+  return trackers;
+}
+
+}  // namespace
+
+// Members end in the reverse order of their making: the server's and the trackers' threads before what they call.
+struct Daemon::Impl {
+  explicit Impl(const Config& config)
+      : store(config.data),
+        server(network_options(config), handlers(), clock),
+        pipeline(loop, server, store, Templates(config.scenes), clock),
+        trackers(make_trackers(config, clock)) {
+    pipeline.solving.deadline_ns = static_cast<Nanoseconds>(config.solve_deadline_ms * 1e6);
+    const Result<std::string> text = pipeline.templates.read(config.scene_template);
+    if (!text)
+      throw std::runtime_error("the scene " + config.scene_template + ": " + text.error().message +
+                               (text.error().hint.empty() ? "" : " (" + text.error().hint + ")"));
+    if (const Status loaded = pipeline.load_scene(*text, 0); !loaded) {
+      throw std::runtime_error("the scene " + config.scene_template + ", at " + loaded.error().path + ": " +
+                               loaded.error().message);
+    }
+  }
+
+  net::Handlers handlers() {
+    net::Handlers h;
+    h.opened = [this](net::ConnectionId id, net::Peer peer) {
+      loop.post([this, id, peer = std::move(peer)] { pipeline.on_opened(id, peer); });
+    };
+    h.closed = [this](net::ConnectionId id) { loop.post([this, id] { pipeline.on_closed(id); }); };
+    h.line = [this](net::ConnectionId id, proto::Line line, Nanoseconds t_ns) {
+      loop.post([this, id, t_ns, line = std::move(line)]() mutable { pipeline.on_line(id, std::move(line), t_ns); });
+    };
+    return h;
+  }
+
+  void start_tracker(tracker::Tracker& tracker) {
+    pipeline.on_tracker(tracker.id(), tracker.kind(), {});
+    tracker::Sink sink;
+    sink.frame = [this](Frame frame) { loop.post([this, frame = std::move(frame)] { pipeline.on_frame(frame); }); };
+    sink.status = [this, id = tracker.id(), kind = tracker.kind()](tracker::Status status) {
+      loop.post([this, id, kind, status = std::move(status)] { pipeline.on_tracker(id, kind, status); });
+    };
+    tracker.start(std::move(sink));
+  }
+
+  Clock clock;
+  Loop loop;
+  Store store;
+  net::Server server;
+  Pipeline pipeline;
+  std::vector<std::unique_ptr<tracker::Tracker>> trackers;
+};
+
+Daemon::Daemon(const Config& config) : impl_(std::make_unique<Impl>(config)) {}
+Daemon::~Daemon() = default;
+
+std::uint16_t Daemon::port() const {
+  return impl_->server.port();
+}
+
+void Daemon::run(bool handle_signals) {
+  if (handle_signals) impl_->loop.on_termination([this] { stop(); });
+  impl_->pipeline.start();
+  impl_->server.start();
+  for (auto& tracker : impl_->trackers) impl_->start_tracker(*tracker);
+  impl_->loop.run();
+  for (auto& tracker : impl_->trackers) tracker->stop();
+  impl_->server.stop();
+}
+
+void Daemon::stop() {
+  impl_->loop.stop();
+}
+
+}  // namespace posed

@@ -1,0 +1,178 @@
+#include "server/daemon/pipeline.h"
+
+#include <algorithm>
+#include <random>
+
+#include "server/daemon/metrics.h"
+#include "server/daemon/requests.h"
+
+namespace posed {
+namespace {
+
+std::string random_boot() {
+  constexpr char kDigits[] = "0123456789abcdef";
+  std::random_device device;
+  std::string boot;
+  for (int i = 0; i < 16; ++i) boot += kDigits[device() & 15u];
+  return boot;
+}
+
+constexpr std::size_t kTimesKept = 4096;
+
+void keep(std::vector<Nanoseconds>& times, Nanoseconds time) {
+  if (times.size() < kTimesKept) times.push_back(time);
+}
+
+// Microseconds; empties the list.
+double median_us(std::vector<Nanoseconds>& times) {
+  if (times.empty()) return 0.0;
+  const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
+  std::nth_element(times.begin(), middle, times.end());
+  const double us = 1e-3 * static_cast<double>(*middle);
+  times.clear();
+  return us;
+}
+
+}  // namespace
+
+Pipeline::Pipeline(Loop& station, net::Server& network, Store& disk, Templates scene_templates,
+                   const Clock& daemon_clock)
+    : loop(station),
+      server(network),
+      store(disk),
+      templates(std::move(scene_templates)),
+      clock(daemon_clock),
+      boot(random_boot()),
+      publisher(network, scene, solving) {
+  solve_times_.reserve(kTimesKept);
+  sample_to_send_.reserve(kTimesKept);
+}
+
+void Pipeline::on_frame(const Frame& frame) {
+  ++frames;
+  publisher.publish_frame(frame);
+  if (!scene.follow(frame)) return;
+  if (!sample_t_ns_) sample_t_ns_ = frame.t_ns;
+  pose_t_ns_ = frame.t_ns;
+  wake_solver(true);
+}
+
+void Pipeline::on_line(net::ConnectionId connection, proto::Line line, Nanoseconds receive_t_ns) {
+  Requests(*this, connection, receive_t_ns).handle(std::move(line));
+}
+
+void Pipeline::edited(net::ConnectionId by) {
+  const auto session = sessions.find(by);
+  publisher.publish_scene(session == sessions.end() ? "posed" : session->second.id);
+  pose_t_ns_ = clock.now();
+  wake_solver(false);
+}
+
+// The solve stands at the end of the queue, so that whatever has arrived by then goes into it: a burst of edits or of
+// frames costs one solve, not one each.
+void Pipeline::wake_solver(bool live_only) {
+  solve_live_only_ = solve_live_only_ && live_only;
+  if (solve_due_) return;
+  solve_due_ = true;
+  loop.post([this] { solve(); });
+}
+
+void Pipeline::solve() {
+  solving.solve(scene, solve_live_only_, clock);
+  solve_due_ = false;
+  solve_live_only_ = true;
+  publisher.publish_pose(pose_t_ns_);
+  keep(solve_times_, solving.last_solve_ns());
+  if (sample_t_ns_) keep(sample_to_send_, clock.now() - *sample_t_ns_);
+  sample_t_ns_.reset();
+  for (std::size_t i = 0; i < waiters_.size();) {
+    if (waiters_[i].revision > solving.revision()) {
+      ++i;
+      continue;
+    }
+    Waiter waiter = std::move(waiters_[i]);
+    waiters_.erase(waiters_.begin() + static_cast<std::ptrdiff_t>(i));
+    reply_pose(waiter.figure, waiter.responder);
+  }
+}
+
+Status Pipeline::load_scene(std::string_view text, net::ConnectionId by) {
+  const Result<SceneDocument> document = proto::decode_scene(text);
+  if (!document) return document.error();
+  const Status loaded = scene.load(*document);
+  if (loaded) edited(by);
+  return loaded;
+}
+
+void Pipeline::answer_pose(std::string figure, Revision revision, Nanoseconds wait, Responder responder) {
+  if (revision <= solving.revision() || wait == 0) return reply_pose(figure, responder);
+  const std::uint64_t id = next_waiter_++;
+  waiters_.push_back({id, std::move(figure), revision, std::move(responder)});
+  loop.after(wait, [this, id] {
+    const auto found = std::find_if(waiters_.begin(), waiters_.end(), [&](const Waiter& w) { return w.id == id; });
+    if (found == waiters_.end()) return;
+    Waiter waiter = std::move(*found);
+    waiters_.erase(found);
+    reply_pose(waiter.figure, waiter.responder);
+  });
+}
+
+void Pipeline::reply_pose(const std::string& figure, Responder& responder) const {
+  const auto solved = solving.figures().find(figure);
+  if (solved == solving.figures().end()) {
+    return responder.error({"unknown_figure", "figure " + figure + " is gone", "/params/figure", ""});
+  }
+  const SolveReport& report = solved->second.pose.report;
+  proto::PoseResult result;
+  result.pose = solving.message(figure);
+  result.t_ns = pose_t_ns_;
+  result.revision = solving.revision();
+  result.iterations = report.iterations;
+  result.chain_solves = report.chain_solves;
+  result.method = "reach_tree";
+  result.notes = {"joints count as balls and keep no limits"};
+  result.balance_error = report.balance_error;
+  result.solve_us = 1e-3 * static_cast<double>(solved->second.solve_ns);
+  responder.result(result);
+}
+
+void Pipeline::on_tracker(const std::string& id, const std::string& kind, const tracker::Status& status) {
+  TrackerState& state = trackers[id];
+  if (state.status.state != status.state || state.status.message != status.message) {
+    const std::string line = "tracker " + id + ": " + tracker_state_name(status.state) +
+                             (status.message.empty() ? "" : ": " + status.message);
+    status.state == tracker::State::failed ? log_warning(line) : log_info(line);
+  }
+  state = {kind, status};
+}
+
+void Pipeline::on_opened(net::ConnectionId connection, net::Peer peer) {
+  sessions[connection] = {"s" + std::to_string(next_session_++), std::move(peer), "", {}};
+}
+
+void Pipeline::on_closed(net::ConnectionId connection) {
+  publisher.forget(connection);
+  sessions.erase(connection);
+}
+
+void Pipeline::start() {
+  tick();
+}
+
+void Pipeline::tick() {
+  const net::Counters counters = server.counters();
+  proto::StatsData stats;
+  stats.t_ns = clock.now();
+  stats.frames = frames;
+  stats.solves = solving.solves();
+  stats.solve_us = median_us(solve_times_);
+  stats.sample_to_send_us = median_us(sample_to_send_);
+  stats.connections = static_cast<int>(sessions.size());
+  stats.dropped = counters.dropped;
+  publisher.publish_stats(stats);
+  server.set_page("/metrics", "text/plain; version=0.0.4",
+                  std::make_shared<const std::string>(metrics_page(stats, counters, scene.revision())));
+  loop.after(1'000'000'000, [this] { tick(); });
+}
+
+}  // namespace posed

@@ -1,0 +1,102 @@
+// READ FIRST. The whole way of the data, one function a step:
+//
+//   tracker bytes -> Frame -> on_frame: scene.follow -> solve -> publish -> viewers
+//   viewer line -> request -> on_line: Requests::handle: scene.set_... -> edited -> solve -> publish
+//
+// All of it runs on the station loop; only the server and the trackers have threads of their own, and they post here.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/frame.h"
+#include "common/time.h"
+#include "server/daemon/loop.h"
+#include "server/daemon/publisher.h"
+#include "server/daemon/responder.h"
+#include "server/daemon/solving.h"
+#include "server/daemon/templates.h"
+#include "server/net/server.h"
+#include "server/scene/scene.h"
+#include "server/store/store.h"
+#include "server/tracker/tracker.h"
+
+namespace posed {
+
+struct Session {
+  std::string id;  // "s3"
+  net::Peer peer;
+  std::string user;
+  proto::Software client;
+};
+
+struct TrackerState {
+  std::string kind;
+  tracker::Status status;
+};
+
+class Pipeline {
+ public:
+  Pipeline(Loop& loop, net::Server& server, Store& store, Templates templates, const Clock& clock);
+
+  void on_frame(const Frame& frame);
+  void on_tracker(const std::string& id, const std::string& kind, const tracker::Status& status);
+  void on_opened(net::ConnectionId connection, net::Peer peer);
+  void on_closed(net::ConnectionId connection);
+  void on_line(net::ConnectionId connection, proto::Line line, Nanoseconds receive_t_ns);
+
+  // Begins the clockwork of statistics.
+  void start();
+
+  // ---- what the handlers of requests use ----
+
+  // To be called after every change of the scene: tells followers and has the figures solved.
+  void edited(net::ConnectionId by);
+  // Solves again although nothing was edited.
+  void resolve() { wake_solver(false); }
+  // Replaces the scene. Nothing changes on an error.
+  Status load_scene(std::string_view text, net::ConnectionId by);
+  // Answers with the figure's pose once it is of `revision`, or when the time is up.
+  void answer_pose(std::string figure, Revision revision, Nanoseconds wait, Responder responder);
+
+  Loop& loop;
+  net::Server& server;
+  Store& store;
+  const Templates templates;
+  const Clock& clock;
+  const std::string boot;
+  Scene scene;
+  Solving solving;
+  Publisher publisher;
+  std::map<net::ConnectionId, Session> sessions;
+  std::map<std::string, TrackerState> trackers;
+  std::uint64_t frames = 0;
+
+ private:
+  struct Waiter {
+    std::uint64_t id;
+    std::string figure;
+    Revision revision;
+    Responder responder;
+  };
+
+  void wake_solver(bool live_only);
+  void solve();
+  void reply_pose(const std::string& figure, Responder& responder) const;
+  void tick();
+
+  bool solve_due_ = false;
+  bool solve_live_only_ = true;
+  std::optional<Nanoseconds> sample_t_ns_;  // arrival of the oldest sample that waits for its solve
+  Nanoseconds pose_t_ns_ = 0;
+  std::vector<Waiter> waiters_;
+  std::uint64_t next_waiter_ = 0;
+  std::uint64_t next_session_ = 1;
+  // Of the last second, bounded.
+  std::vector<Nanoseconds> solve_times_, sample_to_send_;
+};
+
+}  // namespace posed

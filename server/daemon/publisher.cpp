@@ -1,0 +1,164 @@
+#include "server/daemon/publisher.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "common/names.h"
+#include "server/daemon/sensor_message.h"
+
+namespace posed {
+namespace {
+
+const std::vector<std::string> kPoseFields = {"world_from_segment", "q", "goals"};
+
+net::SharedLine share(std::string line) {
+  return std::make_shared<const std::string>(std::move(line));
+}
+
+}  // namespace
+
+bool Publisher::Channel::operator<(const Channel& o) const {
+  return std::tie(stream, figures, fields) < std::tie(o.stream, o.figures, o.fields);
+}
+
+Status Publisher::check(const proto::StreamSubscribe& wish) const {
+  std::vector<std::string> known;
+  for (const auto& [id, figure] : scene_.figures()) known.push_back(id);
+  for (std::size_t i = 0; i < wish.figures.size(); ++i) {
+    if (std::find(known.begin(), known.end(), wish.figures[i]) == known.end()) {
+      return Error{"unknown_figure", "no figure is called " + wish.figures[i].substr(0, 64),
+                   "/figures/" + std::to_string(i), did_you_mean(wish.figures[i], known)};
+    }
+  }
+  for (std::size_t i = 0; i < wish.fields.size(); ++i) {
+    if (std::find(kPoseFields.begin(), kPoseFields.end(), wish.fields[i]) == kPoseFields.end()) {
+      return Error{"invalid_params", "the pose stream has no field " + wish.fields[i].substr(0, 64),
+                   "/fields/" + std::to_string(i), did_you_mean(wish.fields[i], kPoseFields)};
+    }
+  }
+  if (wish.stream != proto::Stream::pose && !(wish.figures.empty() && wish.fields.empty())) {
+    return Error{"invalid_params", "only the pose stream has figures and fields to choose",
+                 wish.figures.empty() ? "/fields" : "/figures", "leave it out"};
+  }
+  return Ok{};
+}
+
+Publisher::Channel Publisher::channel_of(const proto::StreamSubscribe& wish) {
+  Channel channel{wish.stream, wish.figures, {}};
+  std::sort(channel.figures.begin(), channel.figures.end());
+  channel.figures.erase(std::unique(channel.figures.begin(), channel.figures.end()), channel.figures.end());
+  if (!wish.fields.empty()) {
+    const auto wanted = [&](const char* name) {
+      return std::find(wish.fields.begin(), wish.fields.end(), name) != wish.fields.end();
+    };
+    channel.fields = {wanted("world_from_segment"), wanted("q"), wanted("goals")};
+  }
+  return channel;
+}
+
+void Publisher::subscribe(net::ConnectionId connection, const proto::StreamSubscribe& wish) {
+  unsubscribe(connection, wish.stream);
+  const Channel channel = channel_of(wish);
+  auto [it, made] = channels_.try_emplace(channel);
+  State& state = it->second;
+  if (made) state.key = next_key_++;
+  ++state.subscribers;
+  followers_[connection][static_cast<std::size_t>(wish.stream)] = channel;
+
+  net::SharedLine present = state.last;
+  if (wish.stream == proto::Stream::pose) {
+    present = encode_pose(channel, ++state.seq, pose_t_ns_);
+  } else if (wish.stream == proto::Stream::scene) {
+    if (made) {
+      scene_text_ = scene_text();
+      scene_revision_ = scene_.revision();
+    }
+    present = share(proto::encode_scene_snapshot(++state.seq, scene_revision_, scene_text_));
+  }
+  server_.subscribe(connection,
+                    {wish.stream, state.key, wish.max_rate_hz, wish.credit, wish.stream != proto::Stream::scene},
+                    std::move(present), state.seq);
+}
+
+void Publisher::drop(Channels::iterator channel) {
+  if (--channel->second.subscribers == 0) channels_.erase(channel);
+}
+
+void Publisher::unsubscribe(net::ConnectionId connection, proto::Stream stream) {
+  const auto follower = followers_.find(connection);
+  if (follower == followers_.end()) return;
+  auto& channel = follower->second[static_cast<std::size_t>(stream)];
+  if (!channel) return;
+  drop(channels_.find(*channel));
+  channel.reset();
+  server_.unsubscribe(connection, stream);
+}
+
+void Publisher::forget(net::ConnectionId connection) {
+  const auto follower = followers_.find(connection);
+  if (follower == followers_.end()) return;
+  for (const auto& channel : follower->second) {
+    if (channel) drop(channels_.find(*channel));
+  }
+  followers_.erase(follower);
+}
+
+net::SharedLine Publisher::encode_pose(const Channel& channel, std::uint64_t seq, Nanoseconds t_ns) const {
+  proto::PoseData data;
+  data.t_ns = t_ns;
+  data.revision = solving_.revision();
+  for (const auto& [id, figure] : solving_.figures()) {
+    if (channel.figures.empty() || std::binary_search(channel.figures.begin(), channel.figures.end(), id)) {
+      data.figures.push_back(solving_.message(id));
+    }
+  }
+  return share(proto::encode_pose_frame(seq, data, channel.fields));
+}
+
+void Publisher::publish_pose(Nanoseconds t_ns) {
+  pose_t_ns_ = t_ns;
+  for (auto& [channel, state] : channels_) {
+    if (channel.stream != proto::Stream::pose) continue;
+    ++state.seq;
+    server_.publish(channel.stream, state.key, state.seq, encode_pose(channel, state.seq, t_ns));
+  }
+}
+
+void Publisher::publish_frame(const Frame& frame) {
+  for (auto& [channel, state] : channels_) {
+    if (channel.stream != proto::Stream::tracker) continue;
+    ++state.seq;
+    state.last = share(proto::encode_tracker_frame(state.seq, tracker_message(frame)));
+    server_.publish(channel.stream, state.key, state.seq, state.last);
+  }
+}
+
+void Publisher::publish_stats(const proto::StatsData& stats) {
+  for (auto& [channel, state] : channels_) {
+    if (channel.stream != proto::Stream::stats) continue;
+    ++state.seq;
+    state.last = share(proto::encode_stats_frame(state.seq, stats));
+    server_.publish(channel.stream, state.key, state.seq, state.last);
+  }
+}
+
+std::string Publisher::scene_text() const {
+  SceneDocument document = scene_.document();
+  for (auto& [id, figure] : document.figures) figure.q.clear();  // the pose stream carries it
+  return proto::encode_scene(document);
+}
+
+void Publisher::publish_scene(const std::string& by) {
+  for (auto& [channel, state] : channels_) {
+    if (channel.stream != proto::Stream::scene) continue;
+    std::string text = scene_text();
+    ++state.seq;
+    server_.publish(channel.stream, state.key, state.seq,
+                    share(proto::encode_scene_patch(state.seq, scene_revision_, scene_.revision(), by,
+                                                    proto::diff(scene_text_, text))));
+    scene_text_ = std::move(text);
+    scene_revision_ = scene_.revision();
+  }
+}
+
+}  // namespace posed

@@ -1,0 +1,69 @@
+// Who follows which stream, and the lines that they get: encoded once for each set of fields. Station loop only.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/frame.h"
+#include "proto/codec.h"
+#include "server/daemon/solving.h"
+#include "server/net/server.h"
+
+namespace posed {
+
+class Publisher {
+ public:
+  Publisher(net::Server& server, const Scene& scene, const Solving& solving)
+      : server_(server), scene_(scene), solving_(solving) {}
+
+  // Errors: "unknown_figure", "invalid_params" for a field that is none.
+  Status check(const proto::StreamSubscribe& wish) const;
+  // Replaces the connection's subscription of this stream. The present state goes out at once. `wish` is checked.
+  void subscribe(net::ConnectionId connection, const proto::StreamSubscribe& wish);
+  void unsubscribe(net::ConnectionId connection, proto::Stream stream);
+  void forget(net::ConnectionId connection);
+
+  void publish_pose(Nanoseconds t_ns);
+  void publish_frame(const Frame& frame);
+  void publish_scene(const std::string& by);  // after each edit
+  void publish_stats(const proto::StatsData& stats);
+
+ private:
+  // What distinguishes lines of one stream.
+  struct Channel {
+    proto::Stream stream;
+    std::vector<std::string> figures;
+    proto::PoseFields fields;
+    bool operator<(const Channel& o) const;
+  };
+  struct State {
+    std::uint32_t key = 0;
+    std::uint64_t seq = 0;
+    int subscribers = 0;
+    net::SharedLine last;  // tracker and stats: the present state
+  };
+  using Channels = std::map<Channel, State>;
+
+  static Channel channel_of(const proto::StreamSubscribe& wish);
+  net::SharedLine encode_pose(const Channel& channel, std::uint64_t seq, Nanoseconds t_ns) const;
+  std::string scene_text() const;
+  void drop(Channels::iterator channel);
+
+  net::Server& server_;
+  const Scene& scene_;
+  const Solving& solving_;
+  Channels channels_;
+  std::uint32_t next_key_ = 1;
+  std::map<net::ConnectionId, std::array<std::optional<Channel>, proto::kStreams>> followers_;
+  Nanoseconds pose_t_ns_ = 0;
+  // Of the scene stream: what its followers have.
+  std::string scene_text_;
+  Revision scene_revision_ = 0;
+};
+
+}  // namespace posed

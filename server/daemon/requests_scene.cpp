@@ -1,0 +1,54 @@
+// Whole scenes: templates, and what the store keeps.
+#include "common/names.h"
+#include "server/daemon/requests.h"
+
+namespace posed {
+
+void Requests::answer_loaded(const Status& loaded, Responder& responder) {
+  if (!loaded) return responder.error(loaded.error());
+  responder.result(proto::RevisionResult{p_.scene.revision()});
+}
+
+void Requests::on(const proto::SceneGet&, Responder responder) {
+  responder.result(proto::SceneResult{p_.scene.revision(), p_.scene.document()});
+}
+
+void Requests::on(const proto::SceneNew& m, Responder responder) {
+  const Result<std::string> text = p_.templates.read(m.template_name);
+  if (!text) return responder.params_error(text.error());
+  answer_loaded(p_.load_scene(*text, connection_), responder);
+}
+
+void Requests::on(const proto::SceneList&, Responder responder) {
+  // The store answers on its own thread; what follows belongs to the station's.
+  p_.store.list([&p = p_, responder](Result<std::vector<std::string>> saved) {
+    p.loop.post([&p, responder, saved = std::move(saved)]() mutable {
+      if (!saved) return responder.error(saved.error());
+      responder.result(proto::SceneListResult{std::move(*saved), p.templates.names()});
+    });
+  });
+}
+
+void Requests::on(const proto::SceneSave& m, Responder responder) {
+  if (!valid_id(m.name))
+    return responder.error(
+        {"bad_id", "the name is no id", "/params/name", "letters, digits, '_', '.' and '-', at most 64"});
+  const Revision revision = p_.scene.revision();
+  p_.store.save(m.name, proto::encode_scene(p_.scene.document()), [&p = p_, responder, revision](Status saved) {
+    p.loop.post([responder, revision, saved]() mutable {
+      if (!saved) return responder.params_error(saved.error());
+      responder.result(proto::RevisionResult{revision});
+    });
+  });
+}
+
+void Requests::on(const proto::SceneOpen& m, Responder responder) {
+  p_.store.load(m.name, [&p = p_, connection = connection_, responder](Result<std::string> text) {
+    p.loop.post([&p, connection, responder, text = std::move(text)]() mutable {
+      if (!text) return responder.params_error(text.error());
+      Requests(p, connection, 0).answer_loaded(p.load_scene(*text, connection), responder);
+    });
+  });
+}
+
+}  // namespace posed

@@ -1,0 +1,124 @@
+// Lines, sessions, trackers and streams.
+#include "common/names.h"
+#include "server/daemon/requests.h"
+#include "server/daemon/sensor_message.h"
+
+namespace posed {
+namespace {
+
+const proto::Software kDaemon{"posed", POSED_VERSION};
+
+}  // namespace
+
+const char* tracker_state_name(tracker::State state) {
+  switch (state) {
+    case tracker::State::searching:
+      return "searching";
+    case tracker::State::starting:
+      return "starting";
+    case tracker::State::streaming:
+      return "streaming";
+    case tracker::State::silent:
+      return "silent";
+    case tracker::State::failed:
+      return "failed";
+  }
+  return "failed";
+}
+
+void Requests::handle(proto::Line line) {
+  const std::size_t count = line.entries.size();
+  const auto answers = std::make_shared<Responder::Answers>(
+      Responder::Answers{p_.server, connection_, line.batch, std::vector<std::string>(count), count});
+  if (count == 0) return p_.server.reply(connection_, nullptr);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (const auto* bad = std::get_if<proto::BadRequest>(&line.entries[i])) {
+      Responder(answers, i, bad->id).error(bad->error);
+      continue;
+    }
+    const auto& request = std::get<proto::Request>(line.entries[i]);
+    if_revision_ = request.if_revision;
+    std::visit([&](const auto& params) { on(params, Responder(answers, i, request.id)); }, request.params);
+  }
+}
+
+void Requests::on(const proto::SessionHello& hello, Responder responder) {
+  Session& session = p_.sessions[connection_];
+  session.user = hello.user;
+  session.client = hello.client;
+  proto::HelloResult result;
+  result.daemon = kDaemon;
+  result.session = session.id;
+  result.boot = p_.boot;
+  result.features = {"reach_tree"};
+  result.t_ns = p_.clock.now();
+  result.utc_ns = utc_now();
+  responder.result(result);
+}
+
+void Requests::on(const proto::SessionPing&, Responder responder) {
+  responder.result(proto::PingResult{receive_t_ns_, p_.clock.now()});
+}
+
+void Requests::on(const proto::SessionStatus&, Responder responder) {
+  proto::StatusResult result;
+  result.daemon = kDaemon;
+  result.t_ns = p_.clock.now();
+  result.revision = p_.scene.revision();
+  result.method = "reach_tree";
+  result.connections = static_cast<int>(p_.sessions.size());
+  for (const auto& [id, figure] : p_.scene.figures()) result.figures.push_back(id);
+  result.goals = static_cast<int>(p_.scene.goals().size());
+  result.bindings = static_cast<int>(p_.scene.bindings().size());
+  result.trackers = static_cast<int>(p_.trackers.size());
+  result.frames = p_.frames;
+  result.solves = p_.solving.solves();
+  result.last_solve_us = 1e-3 * static_cast<double>(p_.solving.last_solve_ns());
+  responder.result(result);
+}
+
+void Requests::on(const proto::SessionList&, Responder responder) {
+  proto::SessionListResult result;
+  for (const auto& [connection, session] : p_.sessions) {
+    result.sessions.push_back({session.id, session.peer.address, session.peer.websocket ? "websocket" : "lines",
+                               session.user, session.client});
+  }
+  responder.result(result);
+}
+
+void Requests::on(const proto::TrackerList&, Responder responder) {
+  proto::TrackerListResult result;
+  for (const auto& [id, tracker] : p_.trackers) {
+    const tracker::Status& status = tracker.status;
+    proto::TrackerEntry& entry = result.trackers.emplace_back();
+    entry.tracker = id;
+    entry.kind = tracker.kind;
+    entry.state = tracker_state_name(status.state);
+    entry.message = status.message;
+    entry.rate_hz = status.rate_hz;
+    entry.frames = status.frames;
+    entry.bad_bytes = status.bad_bytes;
+    for (const int station : status.stations) entry.sensors.push_back(sensor_id(id, station));
+  }
+  responder.result(result);
+}
+
+void Requests::on(const proto::StreamSubscribe& wish, Responder responder) {
+  if (const Status checked = p_.publisher.check(wish); !checked) return responder.params_error(checked.error());
+  // The connection may be gone by now: then nobody would ever unsubscribe.
+  if (!p_.sessions.contains(connection_)) return responder.result(proto::SubscribeResult{wish.stream});
+  responder.result(proto::SubscribeResult{wish.stream});
+  p_.publisher.subscribe(connection_, wish);
+}
+
+void Requests::on(const proto::StreamUnsubscribe& wish, Responder responder) {
+  p_.publisher.unsubscribe(connection_, wish.stream);
+  responder.result(proto::SubscribeResult{wish.stream});
+}
+
+// The credit was booked where the line came in.
+void Requests::on(const proto::StreamAck&, Responder responder) {
+  responder.result(proto::EmptyResult{});
+}
+
+}  // namespace posed

@@ -1,0 +1,79 @@
+#include "server/daemon/solving.h"
+
+#include <algorithm>
+
+namespace posed {
+
+void Solving::gather(const Scene& scene) {
+  std::erase_if(figures_, [&](const auto& entry) { return !scene.figures().contains(entry.first); });
+  for (const auto& [id, figure] : scene.figures()) {
+    SolvedFigure& solved = figures_[id];
+    if (!solved.solver || &solved.solver->tree() != figure.tree.get()) {
+      solved.solver = std::make_unique<ReachTreeSolver>(figure.tree);
+    }
+    solved.sources.clear();
+    solved.goals.clear();
+  }
+  for (const auto& [id, goal] : scene.goals()) {
+    SolvedFigure& solved = figures_.at(goal.goal.figure);
+    solved.sources.push_back(&goal);
+    solved.goals.push_back(
+        {goal.at.segment, goal.at.point, goal.target(), goal.goal.weight, goal.goal.tolerance, goal.goal.enabled});
+  }
+}
+
+void Solving::solve(Scene& scene, bool live_only, const Clock& clock) {
+  const bool edited = revision_ != scene.revision();
+  if (edited) gather(scene);
+  revision_ = scene.revision();
+  for (auto& [id, figure] : figures_) {
+    bool live = false;
+    for (std::size_t i = 0; i < figure.sources.size(); ++i) {
+      live = live || figure.sources[i]->live;
+      figure.goals[i].target = figure.sources[i]->target();
+    }
+    if (live_only && !edited && !live) continue;
+    const std::vector<double>& present = scene.figures().at(id).q;
+    figure.q.assign(present.begin(), present.end());
+    const Nanoseconds begin = clock.now();
+    const Nanoseconds end = begin + deadline_ns;
+    figure.solver->solve(
+        figure.q, figure.goals, options, [&clock, end] { return clock.now() > end; }, figure.pose);
+    figure.solve_ns = clock.now() - begin;
+    last_solve_ns_ = figure.solve_ns;
+    ++solves_;
+    scene.settle(id, figure.q);
+  }
+}
+
+proto::FigurePose Solving::message(const std::string& id) const {
+  const SolvedFigure& figure = figures_.at(id);
+  proto::FigurePose message;
+  message.figure = id;
+  message.world_from_segment = figure.pose.world_from_segment;
+  message.q = figure.pose.q;
+  message.cost = figure.pose.report.cost;
+  message.status = figure.pose.report.status;
+  message.branch_changed = figure.pose.report.branch_changed;
+  message.goals.reserve(figure.pose.goals.size());
+  for (std::size_t i = 0; i < figure.pose.goals.size(); ++i) {
+    const GoalReport& report = figure.pose.goals[i];
+    proto::GoalFrame& goal = message.goals.emplace_back();
+    goal.id = figure.sources[i]->goal.id;
+    goal.touch = report.touch;
+    goal.target = report.target;
+    goal.error = report.error;
+    goal.force = report.force;
+    goal.state = report.state;
+    for (const Cause& cause : report.causes) {
+      if (cause.kind == Cause::Kind::goal) {
+        goal.causes.push_back({figure.sources[static_cast<std::size_t>(cause.goal)]->goal.id, 0.0});
+      } else {
+        goal.causes.push_back({"", cause.beyond_m});
+      }
+    }
+  }
+  return message;
+}
+
+}  // namespace posed

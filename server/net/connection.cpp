@@ -1,0 +1,363 @@
+#include "server/net/connection.h"
+
+#include <netinet/tcp.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <array>
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/post.hpp>
+#include <cerrno>
+
+#include "common/log.h"
+#include "proto/codec.h"
+#include "server/net/detect_face.h"
+#include "server/net/http_face.h"
+#include "server/net/line_face.h"
+#include "server/net/requests.h"
+#include "server/net/websocket_face.h"
+
+namespace posed::net {
+namespace {
+
+namespace asio = boost::asio;
+using boost::system::error_code;
+
+constexpr std::size_t kGather = 16;            // lines in one write
+constexpr int kReadsInARow = 4;                // then others have their turn
+constexpr int kUnsentBytes = 16 << 10;         // that the kernel takes from us before they go out to a subscriber
+constexpr std::size_t kBurstBytes = 64 << 10;  // of replies, that may gather before they are sent
+constexpr std::string_view kNewline = "\n";
+
+std::size_t framed_size(const Outgoing& out) {
+  const std::size_t size = out.bytes->size();
+  switch (out.framing) {
+    case Framing::raw:
+      return size;
+    case Framing::line:
+      return size + kNewline.size();
+    case Framing::text:
+      return size + frame_header(Opcode::text, size).size;
+  }
+  return size;
+}
+
+bool would_block(const error_code& error) {
+  return error == asio::error::would_block || error == asio::error::try_again;
+}
+
+}  // namespace
+
+Connection::Connection(Hub& hub, Socket socket, ConnectionId id, std::string address)
+    : hub_(hub),
+      socket_(std::move(socket)),
+      id_(id),
+      address_(std::move(address)),
+      outbox_(hub.options.limits.replies, hub.options.limits.reply_bytes, hub.tally) {
+  add(hub_.tally.connections);
+}
+
+Connection::~Connection() {
+  subtract(hub_.tally.connections);
+}
+
+void Connection::start() {
+  error_code ignored;
+  socket_.non_blocking(true, ignored);
+  socket_.set_option(asio::ip::tcp::no_delay(true), ignored);
+  socket_.set_option(asio::socket_base::keep_alive(true), ignored);
+  face_ = std::make_unique<DetectFace>(*this, hub_.options.limits.http_request,
+                                       [this](Detected detected) { return make_face(detected); });
+  arm_read();
+}
+
+std::unique_ptr<Face> Connection::make_face(Detected detected) {
+  const Limits& limits = hub_.options.limits;
+  if (detected == Detected::http) return std::make_unique<HttpFace>(*this, hub_.site, limits, hub_.tally);
+  return std::make_unique<LineFace>(*this, limits.line_bytes);
+}
+
+// ---- what the server asks for ----
+
+void Connection::reply(const SharedLine& line) {
+  if (closed_ || unanswered_ == 0) return;
+  --unanswered_;
+  if (!line || (parting_ && !parting_->waits)) return;
+  add(hub_.tally.replies);
+  if (outbox_.reply_bytes() > kBurstBytes) pump();
+  if (!closed_ && !outbox_.reply(line)) overflow();
+}
+
+void Connection::subscribe(const Subscription& subscription, SharedLine present, std::uint64_t seq) {
+  if (closed_ || parting_) return;
+  if (!small_buffer_) {
+    // Bytes in the kernel can't be taken back: what waits there is the past.
+    small_buffer_ = true;
+    error_code ignored;
+    socket_.set_option(asio::socket_base::send_buffer_size(hub_.options.limits.subscriber_send_buffer), ignored);
+    const int unsent = kUnsentBytes;
+    ::setsockopt(socket_.native_handle(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &unsent, sizeof(unsent));
+  }
+  outbox_.subscribe(subscription, std::move(present), seq, hub_.clock.now());
+  if (ended_) outbox_.waive_credit();
+  hub_.subscriptions.add(this, subscription.stream, subscription.key);
+}
+
+void Connection::unsubscribe(proto::Stream stream) {
+  hub_.subscriptions.remove(this, stream);
+  outbox_.unsubscribe(stream);
+}
+
+void Connection::publish(proto::Stream stream, std::uint64_t seq, const SharedLine& line, bool send) {
+  if (closed_) return;
+  const Nanoseconds now = hub_.clock.now();
+  // A frame whose time has come goes out before the newer one, even if its timer is late: it was not lost.
+  if (rate_armed_ && !write_armed_ && outbox_.due().value_or(now + 1) <= now) pump();
+  if (closed_) return;
+  if (!outbox_.put(stream, seq, line, now)) {
+    overflow();
+    return update();
+  }
+  if (send) flush();
+}
+
+void Connection::flush() {
+  pump();
+  arm_rate();
+}
+
+void Connection::overflow() {
+  part(close_code::kPolicy,
+       Error{"too_large",
+             std::to_string(outbox_.replies()) + " lines of " + std::to_string(outbox_.reply_bytes()) +
+                 " bytes wait unread",
+             "", "read faster, or ask for less at once"},
+       Owed::forget);
+}
+
+void Connection::part_now() {
+  part(close_code::kGoingAway, std::nullopt, Owed::forget);
+  update();
+}
+
+void Connection::check_deadline(Nanoseconds now) {
+  if (deadline_ != 0 && now >= deadline_) close("it took too long");
+}
+
+// ---- what a face asks for ----
+
+bool Connection::room() const {
+  const Limits& limits = hub_.options.limits;
+  return !closed_ && !parting_ && unanswered_ < limits.unanswered && outbox_.reply_bytes() < limits.unread_bytes;
+}
+
+void Connection::hand_up(std::string_view text) {
+  add(hub_.tally.lines);
+  proto::Line line = proto::decode_line(text);
+  take_acks(line, outbox_);
+  if (line.entries.empty()) return;
+  ++unanswered_;
+  hub_.handlers.line(id_, std::move(line), receive_t_ns_);
+}
+
+void Connection::open(bool websocket) {
+  opened_ = true;
+  add(hub_.tally.peers);
+  outbox_.set_framing(websocket ? Framing::text : Framing::line);
+  hub_.handlers.opened(id_, Peer{address_, websocket});
+}
+
+void Connection::become(std::unique_ptr<Face> face, std::string_view rest) {
+  retired_ = std::move(face_);
+  face_ = std::move(face);
+  if (!rest.empty()) face_->take(rest);
+}
+
+void Connection::part(std::uint16_t close_code, std::optional<Error> last_words, Owed owed) {
+  if (closed_ || (parting_ && (!parting_->waits || owed == Owed::wait))) return;
+  if (last_words) log_warning("closing " + address_ + ": " + last_words->message);
+  outbox_.unsubscribe_all();
+  parting_ = Parting{close_code, std::move(last_words), owed == Owed::wait, false, false};
+}
+
+// ---- after each event ----
+
+void Connection::update() {
+  for (;;) {
+    pump();
+    if (closed_ || parting_ || !face_->ready()) break;
+    face_->take({});
+  }
+  close_if_done();
+  arm_read();
+  arm_rate();
+}
+
+void Connection::on_readable() {
+  std::vector<char>& scratch = hub_.scratch;
+  for (int i = 0; i < kReadsInARow; ++i) {
+    error_code error;
+    const std::size_t size = socket_.read_some(asio::buffer(scratch), error);
+    if (would_block(error)) break;
+    if (error == asio::error::eof) {
+      on_end();
+      break;
+    }
+    if (error) return close("the peer is gone");
+    add(hub_.tally.bytes_in, size);
+    if (!parting_) {
+      receive_t_ns_ = hub_.clock.now();
+      face_->take(std::string_view(scratch.data(), size));
+    }
+    if (closed_ || face_->stuck() || size < scratch.size()) break;
+  }
+  update();
+}
+
+void Connection::on_end() {
+  if (parting_) return close("parted");
+  ended_ = true;
+  outbox_.waive_credit();
+  receive_t_ns_ = hub_.clock.now();
+  const Face* const before = face_.get();
+  face_->end();
+  if (face_.get() != before) face_->end();
+  // Nothing is read any more that would show when the peer closes wholly.
+  socket_.async_wait(Socket::wait_error, [self = shared_from_this()](error_code error) {
+    if (!error) self->close("the peer is gone");
+  });
+}
+
+void Connection::say_goodbye() {
+  parting_->said = true;
+  if (deadline_ == 0) deadline(hub_.options.limits.farewell);
+  if (parting_->last_words) {
+    outbox_.send(std::make_shared<const std::string>(proto::encode_error("null", *parting_->last_words)),
+                 outbox_.framing());
+  }
+  if (SharedLine last = face_->goodbye(parting_->close_code)) send(std::move(last));
+  pump();
+}
+
+void Connection::close_if_done() {
+  if (closed_) return;
+  if (!parting_) {
+    if (ended_ && unanswered_ == 0 && idle() && !outbox_.subscribed()) close("the peer has ended");
+    return;
+  }
+  if (!parting_->said && (!parting_->waits || unanswered_ == 0)) say_goodbye();
+  if (closed_ || !parting_->said || parting_->shut || !idle()) return;
+  parting_->shut = true;
+  error_code ignored;
+  socket_.shutdown(Socket::shutdown_send, ignored);
+  if (ended_ || hub_.stopping) {
+    // To close with unread bytes would reset the connection, and our last words with it.
+    while (socket_.read_some(asio::buffer(hub_.scratch), ignored) > 0) {
+    }
+    return close("parted");
+  }
+  deadline(hub_.options.limits.farewell);
+}
+
+void Connection::close(const char* why) {
+  if (closed_) return;
+  closed_ = true;
+  log_debug("closed " + address_ + ": " + why);
+  error_code ignored;
+  socket_.close(ignored);
+  rate_timer_.reset();
+  // Not here and now: it may be in the middle of a fan-out.
+  asio::post(hub_.io, [self = shared_from_this()] { self->hub_.remove(*self); });
+}
+
+void Connection::arm_read() {
+  if (closed_ || ended_ || read_armed_) return;
+  if (parting_ ? !parting_->shut : face_->stuck()) return;
+  read_armed_ = true;
+  socket_.async_wait(Socket::wait_read, [self = shared_from_this()](error_code error) {
+    self->read_armed_ = false;
+    if (!error && !self->closed_) self->on_readable();
+  });
+}
+
+// ---- out ----
+
+bool Connection::fill() {
+  const Nanoseconds now = hub_.clock.now();
+  while (in_flight_.size() < kGather) {
+    auto out = outbox_.next(now);
+    if (!out) break;
+    in_flight_.push_back(std::move(*out));
+    if (in_flight_.back().frame) break;  // what would go after it may be stale by then
+  }
+  return !in_flight_.empty();
+}
+
+void Connection::pump() {
+  while (!closed_ && !write_armed_ && (!in_flight_.empty() || fill())) {
+    std::array<FrameHeader, kGather> headers;
+    std::array<iovec, 2 * kGather> parts;
+    std::size_t count = 0;
+    std::size_t skip = written_;
+    const auto append = [&](const char* data, std::size_t size) {
+      const std::size_t gone = std::min(skip, size);
+      skip -= gone;
+      if (size > gone) parts[count++] = {const_cast<char*>(data + gone), size - gone};
+    };
+    for (std::size_t i = 0; i < in_flight_.size(); ++i) {
+      const Outgoing& out = in_flight_[i];
+      if (out.framing == Framing::text) {
+        headers[i] = frame_header(Opcode::text, out.bytes->size());
+        append(headers[i].bytes.data(), headers[i].size);
+      }
+      append(out.bytes->data(), out.bytes->size());
+      if (out.framing == Framing::line) append(kNewline.data(), kNewline.size());
+    }
+    msghdr message{};
+    message.msg_iov = parts.data();
+    message.msg_iovlen = count;
+    const ssize_t sent = ::sendmsg(socket_.native_handle(), &message, MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (sent < 0 && errno == EINTR) continue;
+    if (sent < 0 && (errno == EAGAIN || errno == EWOULDBLOCK || errno == ENOBUFS)) return arm_write();
+    if (sent < 0) return close("the peer is gone");
+    advance(static_cast<std::size_t>(sent));
+  }
+}
+
+void Connection::advance(std::size_t written) {
+  add(hub_.tally.bytes_out, written);
+  written_ += written;
+  std::size_t done = 0;
+  for (; done < in_flight_.size(); ++done) {
+    const std::size_t size = framed_size(in_flight_[done]);
+    if (written_ < size) break;
+    written_ -= size;
+    if (in_flight_[done].frame) add(hub_.tally.frames);
+  }
+  in_flight_.erase(in_flight_.begin(), in_flight_.begin() + static_cast<std::ptrdiff_t>(done));
+}
+
+void Connection::arm_write() {
+  write_armed_ = true;
+  socket_.async_wait(Socket::wait_write, [self = shared_from_this()](error_code error) {
+    self->write_armed_ = false;
+    if (!error && !self->closed_) self->update();
+  });
+}
+
+void Connection::arm_rate() {
+  if (closed_ || write_armed_) return;
+  const auto due = outbox_.due();
+  if (!due || (rate_armed_ && *due >= rate_due_)) return;
+  if (!rate_timer_) rate_timer_.emplace(hub_.io);
+  rate_armed_ = true;
+  rate_due_ = *due;
+  rate_timer_->expires_after(std::chrono::nanoseconds(std::max<Nanoseconds>(0, *due - hub_.clock.now())));
+  rate_timer_->async_wait([self = shared_from_this()](error_code error) {
+    if (error) return;  // set anew, or closed
+    self->rate_armed_ = false;
+    self->update();
+  });
+}
+
+}  // namespace posed::net

@@ -1,0 +1,96 @@
+// One socket: reads into its face, writes from its outbox, and knows when to close. Network thread only.
+#pragma once
+
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "server/net/detect.h"
+#include "server/net/face.h"
+#include "server/net/hub.h"
+#include "server/net/outbox.h"
+
+namespace posed::net {
+
+class Connection final : public Link, public std::enable_shared_from_this<Connection> {
+ public:
+  using Socket = boost::asio::ip::tcp::socket;
+
+  Connection(Hub& hub, Socket socket, ConnectionId id, std::string address);
+  ~Connection();
+
+  void start();
+  // These only queue: call update() when all that is known was said.
+  void reply(const SharedLine& line);
+  void subscribe(const Subscription& subscription, SharedLine present, std::uint64_t seq);
+  void unsubscribe(proto::Stream stream);
+  // Puts a frame into the outbox; with `send` also on the wire, if it may go.
+  void publish(proto::Stream stream, std::uint64_t seq, const SharedLine& line, bool send);
+  void flush();
+  // Sends what may go, reads what there is room for, closes if all is done.
+  void update();
+  void part_now();
+  void check_deadline(Nanoseconds now);
+  void close(const char* why);
+
+  ConnectionId id() const { return id_; }
+  bool opened() const { return opened_; }
+  // Marks it for an update. True the first time.
+  bool mark_dirty() { return !std::exchange(dirty_, true); }
+  void clear_dirty() { dirty_ = false; }
+
+  bool room() const override;
+  bool idle() const override { return in_flight_.empty() && outbox_.replies() == 0; }
+  void hand_up(std::string_view line) override;
+  void send(SharedLine bytes) override { outbox_.send(std::move(bytes), Framing::raw); }
+  void open(bool websocket) override;
+  void become(std::unique_ptr<Face> face, std::string_view rest) override;
+  void deadline(Nanoseconds in) override { deadline_ = in > 0 ? hub_.clock.now() + in : 0; }
+  void part(std::uint16_t close_code, std::optional<Error> last_words, Owed owed) override;
+
+ private:
+  struct Parting {
+    std::uint16_t close_code = 0;
+    std::optional<Error> last_words;
+    bool waits = false;  // for replies that are owed
+    bool said = false;   // all that there is to say is queued
+    bool shut = false;   // and sent: now the peer may close
+  };
+
+  std::unique_ptr<Face> make_face(Detected detected);
+  void overflow();
+  void on_readable();
+  void on_end();
+  void pump();
+  bool fill();
+  void advance(std::size_t written);
+  void say_goodbye();
+  void close_if_done();
+  void arm_read();
+  void arm_write();
+  void arm_rate();
+
+  Hub& hub_;
+  Socket socket_;
+  const ConnectionId id_;
+  const std::string address_;
+  Outbox outbox_;
+  std::unique_ptr<Face> face_, retired_;  // retired: it may still be on the stack
+  std::optional<Parting> parting_;
+  std::vector<Outgoing> in_flight_;  // begun, must be finished before anything newer
+  std::size_t written_ = 0;          // bytes of its first one that are gone
+  std::optional<boost::asio::steady_timer> rate_timer_;
+  Nanoseconds receive_t_ns_ = 0;
+  Nanoseconds rate_due_ = 0;    // what the rate timer waits for
+  Nanoseconds deadline_ = 0;    // 0: none
+  std::size_t unanswered_ = 0;  // lines that were handed up
+  bool opened_ = false, closed_ = false, ended_ = false;
+  bool read_armed_ = false, write_armed_ = false, rate_armed_ = false, small_buffer_ = false;
+  bool dirty_ = false;
+};
+
+}  // namespace posed::net

@@ -1,0 +1,89 @@
+// What a connection sends next. Knows no sockets and no clock: `now` is a value, in ns of the daemon's clock.
+//
+// Replies are promises: queued in order, up to a cap. Streams are state: each has one slot, in which a newer frame
+// replaces the one that waits. A frame goes out when the peer's credit and its rate allow it, preceded by a stream.lost
+// if the peer was too slow for others.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "common/time.h"
+#include "server/net/subscription.h"
+#include "server/net/tally.h"
+
+namespace posed::net {
+
+enum class Framing { raw, line, text };  // as it is; ended by a newline; as a WebSocket text frame
+
+struct Outgoing {
+  SharedLine bytes;
+  Framing framing = Framing::raw;
+  bool frame = false;  // of a stream
+};
+
+class Outbox {
+ public:
+  Outbox(std::size_t max_replies, std::size_t max_reply_bytes, Tally& tally)
+      : max_replies_(max_replies), max_reply_bytes_(max_reply_bytes), tally_(tally) {}
+
+  // How replies and frames are put on the wire from now on.
+  void set_framing(Framing framing) { framing_ = framing; }
+  Framing framing() const { return framing_; }
+
+  // False if the cap is reached: the line was not taken.
+  [[nodiscard]] bool reply(SharedLine line);
+  // Bytes with their framing, in order with the replies and outside the cap.
+  void send(SharedLine bytes, Framing framing) { queue(std::move(bytes), framing, false); }
+
+  // Replaces the stream's subscription, if any, with all that it held. `present` may be null.
+  void subscribe(const Subscription& subscription, SharedLine present, std::uint64_t seq, Nanoseconds now);
+  void unsubscribe(proto::Stream stream) { slot(stream).reset(); }
+  void unsubscribe_all();
+  // A new frame of a stream; nothing happens without a subscription. False if the cap is reached (not thinned).
+  [[nodiscard]] bool put(proto::Stream stream, std::uint64_t seq, SharedLine line, Nanoseconds now);
+  // The peer has seen all frames up to `seq`. False without a subscription.
+  bool ack(proto::Stream stream, std::uint64_t seq);
+  // No ack can come any more.
+  void waive_credit();
+
+  std::optional<Outgoing> next(Nanoseconds now);
+  // When a frame that waits for nothing but its rate may go.
+  std::optional<Nanoseconds> due() const;
+
+  const Subscription* subscription(proto::Stream stream) const;
+  bool subscribed() const;
+  std::size_t replies() const { return queue_.size() - head_; }
+  std::size_t reply_bytes() const { return reply_bytes_; }
+
+ private:
+  struct Slot {
+    Subscription subscription;
+    Nanoseconds period = 0;  // 0: no cap
+    Nanoseconds next_due = 0;
+    SharedLine newest;                   // null: sent
+    std::uint64_t seq = 0;               // of newest
+    std::uint64_t lost = 0;              // not yet told
+    std::vector<std::uint64_t> unacked;  // ascending; kept only with credit
+
+    bool has_credit() const;
+    void pass(Nanoseconds now);  // a frame was sent or lost
+  };
+
+  std::unique_ptr<Slot>& slot(proto::Stream stream) { return slots_[static_cast<std::size_t>(stream)]; }
+  void queue(SharedLine bytes, Framing framing, bool frame);
+
+  std::size_t max_replies_, max_reply_bytes_;
+  Tally& tally_;
+  Framing framing_ = Framing::line;
+  std::vector<Outgoing> queue_;  // from head_ on
+  std::size_t head_ = 0;
+  std::size_t reply_bytes_ = 0;
+  std::array<std::unique_ptr<Slot>, proto::kStreams> slots_;
+  std::size_t turn_ = 0;  // the stream that goes first: none starves the others
+};
+
+}  // namespace posed::net

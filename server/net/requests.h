@@ -1,0 +1,13 @@
+// Credit: acks that come in among the requests.
+#pragma once
+
+#include "proto/messages.h"
+#include "server/net/outbox.h"
+
+namespace posed::net {
+
+// Books the acks of a line. Those that want no reply are taken out; one of a stream that is not subscribed becomes a
+// BadRequest.
+void take_acks(proto::Line& line, Outbox& outbox);
+
+}  // namespace posed::net

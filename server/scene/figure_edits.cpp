@@ -1,0 +1,93 @@
+#include "server/scene/errors.h"
+#include "server/scene/scene.h"
+#include "server/solver/kinematics.h"
+#include "server/solver/tempus.h"
+
+namespace posed {
+
+Result<SceneFigure> Scene::make_figure(FigureEntry entry) const {
+  FigureDocument document;
+  if (entry.document) {
+    if (!entry.template_name.empty()) {
+      return Error{"invalid_params", "a figure is either a template or a document", "/template", "leave one out"};
+    }
+    document = *entry.document;
+  } else if (entry.template_name == "tempus") {
+    Result<FigureDocument> made = tempus(entry.stature);
+    if (!made) return made.error();
+    document = std::move(*made);
+  } else if (entry.template_name.empty()) {
+    return Error{"missing_field", "the figure has neither a template nor a document", "/template",
+                 "\"template\":\"tempus\""};
+  } else {
+    return Error{"bad_figure", "no figure template is called " + entry.template_name.substr(0, 64), "/template",
+                 "tempus is built in"};
+  }
+  Result<BodyTree> tree = BodyTree::build(document);
+  if (!tree) return below("/document", tree.error());
+
+  SceneFigure figure;
+  figure.tree = std::make_shared<const BodyTree>(std::move(*tree));
+  figure.q = entry.q;
+  if (figure.q.empty()) figure.q = start_pose(*figure.tree);
+  if (const Status checked = check_q(*figure.tree, figure.q); !checked) return below("/q", checked.error());
+  entry.q.clear();
+  figure.entry = std::move(entry);
+  figure.revision = 1;
+  return figure;
+}
+
+Result<Edited> Scene::set_figure(FigureEntry entry, IfRevision if_revision) {
+  const std::string id = entry.id;
+  if (const Status checked = check_id(id); !checked) return checked.error();
+  if (const auto error = stale(figures_, id, if_revision)) return *error;
+  const auto before = figures_.find(id);
+  const Revision revision = before == figures_.end() ? 0 : before->second.revision;
+
+  Result<SceneFigure> figure = make_figure(std::move(entry));
+  if (!figure) return figure.error();
+  // Another stature keeps the pose: same joints, same values.
+  if (before != figures_.end() && before->second.q.size() == figure->q.size() &&
+      check_q(*figure->tree, before->second.q)) {
+    figure->q = before->second.q;
+  }
+  // Its goals must still find their places.
+  std::map<std::string, AttachedPoint> places;
+  for (const auto& [goal_id, goal] : goals_) {
+    if (goal.goal.figure != id) continue;
+    const Result<AttachedPoint> at = figure->tree->attach(goal.goal.at);
+    if (!at) {
+      return Error{at.error().code, "goal " + goal_id + " is held at a place that the new figure lacks", "/id",
+                   "remove the goal first"};
+    }
+    places.emplace(goal_id, *at);
+  }
+  for (const auto& [goal_id, at] : places) goals_.at(goal_id).at = at;
+  figure->revision = revision + 1;
+  figures_.insert_or_assign(id, std::move(*figure));
+  return Edited{id, ++revision_, revision + 1};
+}
+
+Result<Edited> Scene::remove_figure(const std::string& id, IfRevision if_revision) {
+  if (!figures_.contains(id)) return unknown("figure", id, keys(figures_), "/id");
+  if (const auto error = stale(figures_, id, if_revision)) return *error;
+  std::vector<std::string> orphans;
+  for (const auto& [goal_id, goal] : goals_) {
+    if (goal.goal.figure == id) orphans.push_back(goal_id);
+  }
+  for (const std::string& goal_id : orphans) drop_goal(goal_id);
+  figures_.erase(id);
+  return Edited{id, ++revision_, 0};
+}
+
+Result<Edited> Scene::set_q(const std::string& id, std::vector<double> q, IfRevision if_revision) {
+  const Result<const SceneFigure*> found = find_figure(id);
+  if (!found) return found.error();
+  SceneFigure& figure = figures_.at((*found)->entry.id);
+  if (const auto error = stale(figures_, figure.entry.id, if_revision)) return *error;
+  if (const Status checked = check_q(*figure.tree, q); !checked) return below("/q", checked.error());
+  figure.q = std::move(q);
+  return Edited{figure.entry.id, ++revision_, ++figure.revision};
+}
+
+}  // namespace posed

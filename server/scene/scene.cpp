@@ -1,0 +1,108 @@
+#include "server/scene/scene.h"
+
+#include "common/names.h"
+#include "server/scene/errors.h"
+
+namespace posed {
+
+SceneDocument Scene::document() const {
+  SceneDocument document;
+  for (const auto& [id, figure] : figures_) {
+    FigureEntry entry = figure.entry;
+    entry.q = figure.q;
+    document.figures.emplace(id, std::move(entry));
+  }
+  for (const auto& [id, goal] : goals_) document.goals.emplace(id, goal.goal);
+  for (const auto& [id, binding] : bindings_) document.bindings.emplace(id, binding.binding);
+  return document;
+}
+
+Status Scene::load(const SceneDocument& document) {
+  Scene next;
+  for (const auto& [id, entry] : document.figures) {
+    Result<SceneFigure> figure = check_id(id) ? make_figure(entry) : check_id(id).error();
+    if (!figure) return below("/figures/" + id, figure.error());
+    next.figures_.emplace(id, std::move(*figure));
+  }
+  for (const auto& [id, entry] : document.goals) {
+    Result<SceneGoal> goal = check_id(id) ? make_goal(entry, next.figures_) : check_id(id).error();
+    if (!goal) return below("/goals/" + id, goal.error());
+    next.goals_.emplace(id, std::move(*goal));
+  }
+  for (const auto& [id, entry] : document.bindings) {
+    Result<SceneBinding> binding = check_id(id) ? make_binding(entry, next.goals_) : check_id(id).error();
+    if (!binding) return below("/bindings/" + id, binding.error());
+    next.bindings_.emplace(id, std::move(*binding));
+  }
+  next.revision_ = revision_ + 1;
+  *this = std::move(next);
+  return Ok{};
+}
+
+Result<const SceneFigure*> Scene::find_figure(const std::string& id) const {
+  if (!id.empty()) {
+    const auto found = figures_.find(id);
+    if (found == figures_.end()) return unknown("figure", id, keys(figures_), "/figure");
+    return &found->second;
+  }
+  if (figures_.size() == 1) return &figures_.begin()->second;
+  if (const auto body = figures_.find("body"); body != figures_.end()) return &body->second;
+  if (figures_.empty())
+    return Error{"unknown_figure", "the scene has no figure", "/figure", "make one with figure.set or scene.new"};
+  return Error{"ambiguous_figure", "the scene has several figures and none is called body", "/figure",
+               did_you_mean("", keys(figures_))};
+}
+
+Status Scene::check_id(const std::string& id) const {
+  if (valid_id(id)) return Ok{};
+  return Error{"bad_id", "an id has 1 to 64 letters, digits, '_', '.' or '-' and starts with none of the last two",
+               "/id", "as in right_hand-2"};
+}
+
+int Scene::clear_goals(const std::string& figure) {
+  int removed = 0;
+  for (auto it = goals_.begin(); it != goals_.end();) {
+    const auto current = it++;
+    if (!figure.empty() && current->second.goal.figure != figure) continue;
+    const std::string id = current->first;
+    drop_goal(id);
+    ++removed;
+  }
+  if (removed > 0) ++revision_;
+  return removed;
+}
+
+void Scene::drop_goal(const std::string& id) {
+  std::erase_if(bindings_, [&](const auto& entry) { return entry.second.binding.goal == id; });
+  goals_.erase(id);
+}
+
+void Scene::settle(const std::string& figure, const std::vector<double>& q) {
+  const auto found = figures_.find(figure);
+  if (found != figures_.end()) std::copy(q.begin(), q.end(), found->second.q.begin());
+}
+
+bool Scene::follow(const Frame& frame) {
+  bool moved = false;
+  for (auto& [id, b] : bindings_) {
+    if (b.device != frame.device) continue;
+    for (const Sample& sample : frame.samples) {
+      if (sample.station != b.station) continue;
+      SceneGoal& goal = goals_.find(b.binding.goal)->second;
+      Vec3 wanted = sample.position * b.binding.scale;
+      if (b.binding.mode == Binding::Mode::relative) {
+        if (!b.anchor) b.anchor = SceneBinding::Anchor{sample.position, goal.target()};
+        wanted = b.anchor->target + b.binding.scale * (sample.position - b.anchor->sensor);
+      }
+      Vec3 target = goal.goal.position;
+      if (b.binding.axes.x) target.x = wanted.x;
+      if (b.binding.axes.y) target.y = wanted.y;
+      if (b.binding.axes.z) target.z = wanted.z;
+      moved = moved || !goal.live || *goal.live != target;
+      goal.live = target;
+    }
+  }
+  return moved;
+}
+
+}  // namespace posed

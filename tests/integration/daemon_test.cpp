@@ -1,0 +1,250 @@
+// Requests, poses and streams of a whole daemon over real sockets.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstdlib>
+
+#include "running_daemon.h"
+
+namespace posed {
+namespace {
+
+using test::RunningDaemon;
+constexpr auto kPatience = std::chrono::seconds(60);
+
+proto::PoseResult pose_at(client::Client& client, std::uint64_t revision) {
+  proto::PoseGet get;
+  get.min_revision = revision;
+  get.wait_ms = 10'000;
+  const auto pose = client.call<proto::PoseResult>(get);
+  EXPECT_TRUE(pose) << pose.error().message;
+  return pose ? *pose : proto::PoseResult{};
+}
+
+const proto::GoalFrame* find_goal(const std::vector<proto::GoalFrame>& goals, const std::string& id) {
+  for (const auto& goal : goals) {
+    if (goal.id == id) return &goal;
+  }
+  return nullptr;
+}
+
+proto::GoalSet hand_goal(const Vec3& position) {
+  proto::GoalSet set;
+  set.edit.at = Attachment{"right_hand", {}, ""};
+  set.edit.position = position;
+  return set;
+}
+
+TEST(Daemon, TheNcLineSentTwiceLeavesOneGoal) {
+  if (std::system("command -v nc >/dev/null && nc -h 2>&1 | grep -q -- '-N'") != 0)
+    GTEST_SKIP() << "SKIPPED: nc (netcat-openbsd) is not installed";
+  const RunningDaemon daemon({}, "empty");
+  const std::string line =
+      R"(printf '%s\n' '{"jsonrpc":"2.0","id":1,"method":"goal.set","params":{"at":"right_hand","position":[0.5,-0.3,1.2]}}' | nc -N 127.0.0.1 )" +
+      std::to_string(daemon.port());
+  for (const char* revision : {"\"entity_revision\":1", "\"entity_revision\":2"}) {
+    FILE* pipe = popen(line.c_str(), "r");
+    char text[512] = {};
+    const std::size_t size = fread(text, 1, sizeof text - 1, pipe);
+    EXPECT_EQ(pclose(pipe), 0);
+    const std::string reply(text, size);
+    EXPECT_NE(reply.find(R"("result":{"id":"body.right_hand.position")"), std::string::npos) << reply;
+    EXPECT_NE(reply.find(revision), std::string::npos) << reply;
+  }
+  auto client = daemon.connect();
+  const auto list = client.call<proto::GoalListResult>(proto::GoalList{});
+  ASSERT_TRUE(list);
+  EXPECT_EQ(list->goals.size(), 1u);
+}
+
+TEST(Daemon, AnEditIsAnsweredSolvedAndStreamed) {
+  const RunningDaemon daemon;
+  auto editor = daemon.connect(), viewer = daemon.connect();
+  ASSERT_TRUE(viewer.subscribe({proto::Stream::pose, {}, {}, 0.0, 3}));
+  const auto edited = editor.call<proto::EditResult>(hand_goal({0.35, -0.25, 1.2}));
+  ASSERT_TRUE(edited) << edited.error().message;
+  for (;;) {
+    const auto frame = viewer.next(kPatience);
+    ASSERT_TRUE(frame) << frame.error().message;
+    const auto data = proto::decode_message<proto::PoseData>(frame->data);
+    ASSERT_TRUE(data) << data.error().message;
+    if (data->revision < edited->revision) continue;
+    ASSERT_EQ(data->figures.size(), 1u);
+    EXPECT_EQ(data->figures[0].world_from_segment.size(), 18u);
+    const auto* goal = find_goal(data->figures[0].goals, edited->id);
+    ASSERT_NE(goal, nullptr);
+    EXPECT_EQ(goal->state, GoalState::reached);
+    EXPECT_LT(glm::length(goal->touch - Vec3(0.35, -0.25, 1.2)), 1e-3);
+    break;
+  }
+}
+
+TEST(Daemon, ASensorBoundToAGoalMovesTheFigureWithNoClientBetween) {
+  const RunningDaemon daemon({"simulated:7"});
+  auto client = daemon.connect();
+  const auto edited = client.call<proto::EditResult>(hand_goal({0.4, -0.3, 1.2}));
+  ASSERT_TRUE(edited);
+  proto::BindingSet bind;
+  bind.edit.sensor = "simulated:1";
+  bind.edit.goal = edited->id;
+  const auto bound = client.call<proto::EditResult>(bind);
+  ASSERT_TRUE(bound) << bound.error().message;
+  const auto revision = client.call<proto::StatusResult>(proto::SessionStatus{})->revision;
+  ASSERT_TRUE(client.subscribe({proto::Stream::pose, {}, {"goals"}, 0.0, 0}));
+  double way = 0.0;
+  std::optional<Vec3> last;
+  for (int moved = 0; moved < 100;) {
+    const auto frame = client.next(kPatience);
+    ASSERT_TRUE(frame) << frame.error().message;
+    const auto data = proto::decode_message<proto::PoseData>(frame->data);
+    ASSERT_TRUE(data);
+    EXPECT_EQ(data->revision, revision) << "live motion is no edit";
+    EXPECT_TRUE(data->figures[0].world_from_segment.empty()) << "the field was not asked for";
+    const auto* goal = find_goal(data->figures[0].goals, edited->id);
+    ASSERT_NE(goal, nullptr);
+    if (last && *last != goal->touch) ++moved, way += glm::length(*last - goal->touch);
+    last = goal->touch;
+  }
+  EXPECT_GT(way, 0.01);
+}
+
+TEST(Daemon, SpringsAndWhatElseIsReservedAreRefusedNotAliased) {
+  const RunningDaemon daemon;
+  auto client = daemon.connect();
+  const std::pair<const char*, const char*> reserved[] = {
+      {"solver.set", R"({"method":"springs"})"},
+      {"goal.set", R"({"at":"head","aim":{"axis":[1,0,0],"point":[1,1,1]}})"},
+      {"goal.set", R"({"at":"head","position":[0,0,1],"priority":1})"},
+      {"goal.set", R"({"at":"head","position":[0,0,1],"relative_to":{"object":"chair"}})"},
+      {"binding.set", R"({"sensor":"simulated:1","to":{"camera":"main"}})"},
+      {"solve", "{}"},
+      {"edit.undo", "{}"},
+      {"stream.subscribe", R"({"stream":"pose","encoding":"cbor"})"},
+  };
+  for (const auto& [method, params] : reserved) {
+    const auto reply = client.call(method, params);
+    ASSERT_FALSE(reply) << method << params;
+    EXPECT_EQ(reply.error().code, "not_available") << method << params << reply.error().message;
+  }
+  EXPECT_EQ(client.call<proto::SolverResult>(proto::SolverGet{})->method, "reach_tree");
+}
+
+TEST(Daemon, AWrongSegmentIsNamedWithACure) {
+  const RunningDaemon daemon;
+  auto client = daemon.connect();
+  const auto before = client.call("scene.get");
+  const auto reply = client.call("goal.set", R"({"at":"right_hnd","position":[0,0,1]})");
+  ASSERT_FALSE(reply);
+  EXPECT_EQ(reply.error().code, "unknown_segment");
+  EXPECT_EQ(reply.error().path, "/params/at");
+  EXPECT_NE(reply.error().hint.find("right_hand"), std::string::npos);
+  EXPECT_EQ(*before, *client.call("scene.get")) << "a refused edit changes nothing";
+}
+
+TEST(Daemon, ThePapersScenesBalanceAndKeepBoneLengthsOverTheWire) {
+  const RunningDaemon daemon;
+  auto client = daemon.connect();
+  const auto scenes = client.call<proto::SceneListResult>(proto::SceneList{});
+  ASSERT_TRUE(scenes);
+  int papers = 0;
+  for (const std::string& name : scenes->templates) {
+    SCOPED_TRACE(name);
+    const auto loaded = client.call<proto::RevisionResult>(proto::SceneNew{name});
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    const proto::PoseResult pose = pose_at(client, loaded->revision);
+    if (name.starts_with("paper/")) {
+      ++papers;
+      EXPECT_LT(pose.balance_error, 1e-6);
+      EXPECT_EQ(pose.method, "reach_tree");
+    }
+    const auto figure = client.call<proto::FigureResult>(proto::FigureGet{"body"});
+    ASSERT_TRUE(figure);
+    std::map<std::string, Transform> world;
+    for (std::size_t i = 0; i < figure->document.segments.size(); ++i) {
+      const Segment& segment = figure->document.segments[i];
+      world[segment.name] = pose.pose.world_from_segment[i];
+      if (segment.parent.empty()) continue;
+      const Vec3 joint = world[segment.parent] * segment.joint.parent_from_joint.position;
+      EXPECT_LT(glm::length(joint - world[segment.name].position), 1e-9) << segment.name << " came off its joint";
+    }
+  }
+  EXPECT_EQ(papers, 8);
+}
+
+TEST(Daemon, SavedScenesComeBackWithTheirPose) {
+  const RunningDaemon daemon;
+  auto client = daemon.connect();
+  const auto edited = client.call<proto::EditResult>(hand_goal({0.3, -0.4, 1.4}));
+  ASSERT_TRUE(edited);
+  const proto::PoseResult before = pose_at(client, edited->revision);
+  ASSERT_TRUE(client.call("scene.save", R"({"name":"monday"})"));
+  ASSERT_TRUE(client.call("scene.new", R"({"template":"empty"})"));
+  const auto opened = client.call<proto::RevisionResult>(proto::SceneOpen{"monday"});
+  ASSERT_TRUE(opened) << opened.error().message;
+  const proto::PoseResult after = pose_at(client, opened->revision);
+  ASSERT_EQ(before.pose.q.size(), after.pose.q.size());
+  for (std::size_t i = 0; i < before.pose.q.size(); ++i) EXPECT_NEAR(before.pose.q[i], after.pose.q[i], 1e-6);
+  EXPECT_EQ(client.call("scene.open", R"({"name":"tuesday"})").error().code, "unknown_scene");
+  EXPECT_NE(client.call("scene.list")->find("\"monday\""), std::string::npos);
+}
+
+TEST(Daemon, TheSceneStreamIsASnapshotAndThenPatches) {
+  const RunningDaemon daemon;
+  auto client = daemon.connect(), other = daemon.connect();
+  ASSERT_TRUE(client.subscribe({proto::Stream::scene, {}, {}, 0.0, 0}));
+  const auto snapshot = client.next(kPatience);
+  ASSERT_TRUE(snapshot);
+  EXPECT_NE(snapshot->data.find("\"document\""), std::string::npos);
+  for (int i = 0; i < 20; ++i) ASSERT_TRUE(other.call<proto::EditResult>(hand_goal({0.3, -0.3, 1.0 + 0.01 * i})));
+  std::uint64_t seq = snapshot->seq;
+  for (int i = 0; i < 20; ++i) {
+    const auto patch = client.next(kPatience);
+    ASSERT_TRUE(patch);
+    EXPECT_EQ(patch->seq, ++seq) << "no edit is left out";
+    EXPECT_NE(patch->data.find("/goals/body.right_hand.position"), std::string::npos) << patch->data;
+  }
+}
+
+TEST(Daemon, MirrorAndResetMoveTheFigureAndGoalsStay) {
+  const RunningDaemon daemon({}, "empty");
+  auto client = daemon.connect();
+  const auto set = client.call<proto::EditResult>([] {
+    proto::JointSet m;
+    m.joint = "left_elbow";
+    m.halfplane = 0.3, m.deviation = 1.2, m.twist = 0.1;
+    return m;
+  }());
+  ASSERT_TRUE(set) << set.error().message;
+  const auto joint = client.call<proto::JointResult>(proto::JointGet{"", "left_elbow"});
+  ASSERT_TRUE(joint);
+  EXPECT_NEAR(*joint->halfplane, 0.3, 1e-9);
+  EXPECT_NEAR(*joint->deviation, 1.2, 1e-9);
+  EXPECT_NEAR(*joint->twist, 0.1, 1e-9);
+  ASSERT_TRUE(client.call("pose.mirror"));
+  const auto mirrored = client.call<proto::JointResult>(proto::JointGet{"", "right_elbow"});
+  ASSERT_TRUE(mirrored);
+  EXPECT_NEAR(mirrored->value[0], -joint->value[0], 1e-12);
+  EXPECT_NEAR(mirrored->value[1], joint->value[1], 1e-12);
+  ASSERT_TRUE(client.call("pose.reset"));
+  EXPECT_NEAR(*client.call<proto::JointResult>(proto::JointGet{"", "right_elbow"})->deviation, 0.0, 1e-12);
+}
+
+TEST(Daemon, ABatchIsAnsweredInOneLineAndNotificationsNotAtAll) {
+  const RunningDaemon daemon;
+  auto client = daemon.connect();
+  EXPECT_TRUE(client.call("session.ping"));
+  const std::string command =
+      R"(printf '%s\n' '[{"jsonrpc":"2.0","id":"a","method":"session.ping"},{"jsonrpc":"2.0","method":"session.ping"},{"jsonrpc":"2.0","id":7,"method":"nothing"}]' | nc -N 127.0.0.1 )" +
+      std::to_string(daemon.port());
+  if (std::system("command -v nc >/dev/null") != 0) GTEST_SKIP() << "SKIPPED: nc is not installed";
+  FILE* pipe = popen(command.c_str(), "r");
+  char text[2048] = {};
+  const std::string reply(text, fread(text, 1, sizeof text - 1, pipe));
+  pclose(pipe);
+  EXPECT_TRUE(reply.starts_with(R"([{"jsonrpc":"2.0","id":"a","result")")) << reply;
+  EXPECT_NE(reply.find(R"("id":7,"error":{"code":-32601)"), std::string::npos) << reply;
+  EXPECT_EQ(std::count(reply.begin(), reply.end(), '\n'), 1);
+}
+
+}  // namespace
+}  // namespace posed
