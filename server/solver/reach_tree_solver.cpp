@@ -15,7 +15,7 @@
 // - the global matrices are never computed anew after a chain is solved, nor after the root is moved: refresh() does;
 // - it moves first and tests afterwards, so that a tree that rests is moved once in vain and a step that loses is kept.
 //   The text's list tests before it moves ("zero magnitude or no smaller than previous iteration"): that is done here,
-//   and a step that did not gain is undone;
+//   and a step that did not gain is undone. At the root that rule alone would quit too soon, see balance_root;
 // - a branch node that holds no goal adds weight 0, and its touch point is what is placed.
 
 namespace posed {

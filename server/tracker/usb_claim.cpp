@@ -7,10 +7,14 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <system_error>
+#include <vector>
 
 namespace posed::tracker {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr auto kPatience = std::chrono::seconds(1);
 constexpr auto kPause = std::chrono::milliseconds(5);
@@ -39,6 +43,16 @@ std::string name_of(const UsbIdentity& who) {
   char text[16];
   std::snprintf(text, sizeof text, "%04x:%04x", who.vendor, who.product);
   return "the USB device " + std::string(text) + " (" + node_of(who) + ")";
+}
+
+// Processes come and go while one looks, and most may not be looked into: both end the list, neither throws.
+std::vector<fs::path> entries(const fs::path& folder) {
+  std::vector<fs::path> found;
+  std::error_code error;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    found.push_back(at->path());
+  }
+  return found;
 }
 
 }  // namespace
@@ -100,16 +114,16 @@ Error usb_open_error(int code, const UsbIdentity& who) {
 }
 
 std::string usb_holder(const UsbIdentity& who) {
-  namespace fs = std::filesystem;
   const std::string node = node_of(who);
-  std::error_code ignored;
-  for (const auto& process : fs::directory_iterator("/proc", ignored)) {
-    const std::string pid = process.path().filename();
+  for (const fs::path& process : entries("/proc")) {
+    const std::string pid = process.filename();
     if (pid.find_first_not_of("0123456789") != std::string::npos || pid == std::to_string(::getpid())) continue;
-    for (const auto& descriptor : fs::directory_iterator(process.path() / "fd", ignored)) {
-      if (fs::read_symlink(descriptor.path(), ignored) != node) continue;
+    for (const fs::path& descriptor : entries(process / "fd")) {
+      std::error_code ignored;
+      if (fs::read_symlink(descriptor, ignored) != node) continue;
+      std::ifstream comm(process / "comm");
       std::string name;
-      std::getline(std::ifstream(process.path() / "comm") >> std::ws, name);
+      std::getline(comm, name);
       return name + " (process " + pid + ")";
     }
   }

@@ -198,11 +198,11 @@ function distance(a, b) {
   return Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
-/** A scene worth looking at: two goals that are out of balance, and a sensor beside them. */
+/** A scene worth looking at: the paper's sitting figure. */
 export async function takeShot(page, path) {
   const menu = page.getByTestId("scene-menu");
   const templates = await menu.locator("option").evaluateAll((options) => options.map(({ value }) => value));
-  const wanted = ["new:paper/unreachable", "new:paper/two-reaches", "new:standing"].find((name) => templates.includes(name));
+  const wanted = ["new:paper/sitting", "new:standing"].find((name) => templates.includes(name));
   if (wanted) {
     const before = (await state(page)).revision;
     await menu.selectOption(wanted);

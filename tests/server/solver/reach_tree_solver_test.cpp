@@ -149,6 +149,19 @@ TEST(ReachTreeSolver, RigidJointsAreLinksOfTheChain) {
   EXPECT_EQ(out.q[hinge + 1], 0.2);
 }
 
+// Undoing the step that could not be made once read the position of a free root, which such a short q does not hold.
+TEST(ReachTreeSolver, AFigureThatCanNotBendIsLeftAsItIs) {
+  FigureDocument d = column(2, 0.5, JointType::fixed);
+  d.segments[1].joint.type = JointType::hinge;
+  d.segments[1].joint.axes = {kY};
+  Bench b(test::build(d));
+  b.pull("s1", {1, 0, 0}, 10);
+  const Pose out = b.solve();
+  EXPECT_EQ(out.q, b.start);
+  EXPECT_EQ(out.goals[0].state, GoalState::unreachable);
+  EXPECT_EQ(out.report.chain_solves, 0);
+}
+
 TEST(ReachTreeSolver, SeveralGoalsOfOneSegmentPullAtTheirMean) {
   Bench b(test::human());
   const int hand = *b.tree->find_segment("right_hand");

@@ -7,6 +7,9 @@
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "tests/support/usb_testbed.h"
 
@@ -82,14 +85,6 @@ class LibertyOnUsb : public testing::Test {
     std::string reason;
     bed = UsbTestbed::make(std::move(options), reason);
     if (!bed) FAIL() << reason;  // where umockdev is missing this program is not even built
-  }
-  bool wait_until(const std::function<bool()>& condition) {
-    const auto deadline = std::chrono::steady_clock::now() + kPatience;
-    while (!condition()) {
-      if (std::chrono::steady_clock::now() > deadline) return false;
-      std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    }
-    return true;
   }
   bool device_streams() { return bed->ask(&LibertyEmulator::streaming); }
 
