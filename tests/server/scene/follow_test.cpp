@@ -1,24 +1,5 @@
-#include <cstdlib>
-#include <new>
-
 #include "tests/server/scene/scene_fixture.h"
-
-namespace {
-std::size_t allocations = 0;
-}
-
-// Counted in the whole program, so that follow() can be seen to make none.
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* p = std::malloc(size > 0 ? size : 1)) return p;
-  throw std::bad_alloc();
-}
-void operator delete(void* p) noexcept {
-  std::free(p);
-}
-void operator delete(void* p, std::size_t) noexcept {
-  std::free(p);
-}
+#include "tests/support/allocation_counter.h"
 
 namespace posed {
 namespace {
@@ -128,10 +109,10 @@ TEST_F(Follow, DoesNotAllocate) {
   bind(relative);
   Frame both = frame({1, 1, 1});
   both.samples.push_back(frame({2, 2, 2}, 2).samples[0]);
-  const std::size_t before = allocations;
+  const std::size_t before = test::allocation_count();
   EXPECT_GT(before, 0u);
   const bool moved = scene.follow(both);
-  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(test::allocation_count(), before);
   EXPECT_TRUE(moved);
 }
 
