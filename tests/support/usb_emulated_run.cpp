@@ -5,8 +5,8 @@
 //   --unplugged    starts with nothing on the bus
 //   --swing        the sensors move as the simulated tracker's do; otherwise they stand still
 //
-// Each line on standard input is an act: plug, unplug, sensor N, no-sensor N, freeze, thaw, status, quit (ends COMMAND
-// with SIGTERM). SIGUSR1 unplugs, SIGUSR2 plugs in. Its exit status is COMMAND's; on standard error it says "usb:
+// Each line on standard input is an act: plug, unplug, sensor N, no-sensor N, pose N X Y Z (inches, source frame), freeze,
+// thaw, status, quit (ends COMMAND with SIGTERM). SIGUSR1 unplugs, SIGUSR2 plugs in. Its exit status is COMMAND's; on standard error it says "usb:
 // streaming=0 claims=1" at the end, so that a test can see how the device was left.
 #include <fcntl.h>
 #include <poll.h>
@@ -59,6 +59,8 @@ void act(UsbTestbed& bed, const std::string& line, pid_t child) {
   bed.with_device([&](LibertyEmulator& device) {
     if (word == "sensor") device.plug_sensor(station);
     if (word == "no-sensor") device.unplug_sensor(station);
+    LibertyPose pose;
+    if (word == "pose" && words >> pose.x >> pose.y >> pose.z) device.set_pose(station, pose);
     if (word == "freeze" || word == "thaw") device.set_frozen(word == "freeze");
   });
 }
