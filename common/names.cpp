@@ -40,7 +40,7 @@ std::string did_you_mean(std::string_view name, std::span<const std::string> can
     const std::size_t d = edit_distance(name, c);
     if (d < best) best = d, nearest = &c;
   }
-  if (nearest) return "did you mean " + *nearest + "?";
+  if (nearest && !name.empty()) return "did you mean " + *nearest + "?";
   if (candidates.empty() || candidates.size() > 24) return {};
   std::string all = "one of:";
   for (const std::string& c : candidates) all += " " + c;

@@ -9,7 +9,7 @@ namespace {
 std::string request_text(std::string_view id, std::string_view method, std::string_view params) {
   std::string line = "{\"jsonrpc\":\"2.0\"";
   if (!id.empty()) line.append(",\"id\":").append(id);
-  line.append(",\"method\":").append(Json(std::string(method)).dump());
+  line.append(",\"method\":").append(Json(std::string(method)).dump(-1, ' ', false, Json::error_handler_t::replace));
   return line.append(",\"params\":").append(params).append("}");
 }
 

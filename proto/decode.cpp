@@ -45,8 +45,11 @@ Entry decode_request(Json& json) {
   }
   for (const auto& [key, value] : json.items()) {
     if (key != "jsonrpc" && key != "id" && key != "method" && key != "params") {
-      return bad(answer_to, {"unknown_field", "there is no field \"" + key.substr(0, 64) + "\" in a request",
-                             "/" + key.substr(0, 64), "put it into params"});
+      ReadContext context;
+      const At at(context, key.substr(0, 64));
+      context.fail("unknown_field", "there is no field \"" + key.substr(0, 64) + "\" in a request",
+                   "put it into params");
+      return bad(answer_to, *context.error);
     }
   }
 
@@ -84,6 +87,12 @@ Line decode_line(std::string_view text) {
     line.entries.push_back(bad("null", json.error()));
   } else if (json->is_array()) {
     if (json->empty()) line.entries.push_back(bad("null", {"invalid_request", "the batch is empty", "", ""}));
+    if (json->size() > kMaxBatch) {
+      line.entries.push_back(bad(
+          "null",
+          {"too_large", "a batch holds at most " + std::to_string(kMaxBatch) + " requests", "", "send it in parts"}));
+      return line;
+    }
     line.batch = !json->empty();
     for (Json& item : *json) line.entries.push_back(decode_request(item));
   } else {

@@ -208,7 +208,10 @@ void describe(V& v, BindingSet& m) {
   v.optional("sensor", m.edit.sensor);
   std::string goal = m.edit.goal.value_or("");
   GoalTarget to{goal};
-  if ((V::kReads || m.edit.goal) && v.optional("to", to)) m.edit.goal = goal;
+  const bool said = (V::kReads || m.edit.goal) && v.optional("to", to);
+  if constexpr (V::kReads) {
+    if (said) m.edit.goal = goal;
+  }
   v.optional("axes", m.edit.axes);
   v.optional("mode", m.edit.mode);
   v.optional("scale", m.edit.scale);

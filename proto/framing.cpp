@@ -3,6 +3,7 @@
 namespace posed::proto {
 
 bool LineSplitter::push(std::string_view bytes) {
+  if (too_long_) return false;
   buffer_.erase(0, begin_);
   scanned_ -= begin_;
   begin_ = 0;
@@ -11,7 +12,13 @@ bool LineSplitter::push(std::string_view bytes) {
     const std::size_t end = left.find('\n');
     const std::string_view part = left.substr(0, end);
     pending_ += part.size();
-    if (pending_ > max_line_) return false;
+    // A "\r" before the line's end is not the line's; where a piece ends behind it, the next byte tells.
+    const bool may_end = part.empty() || part.back() == '\r';
+    if (pending_ > max_line_ + (may_end ? 1 : 0)) {
+      buffer_.append(bytes.substr(0, bytes.size() - left.size()));
+      too_long_ = true;
+      return false;
+    }
     if (end == std::string_view::npos) break;
     pending_ = 0;
     left.remove_prefix(end + 1);

@@ -12,7 +12,8 @@ class LineSplitter {
  public:
   explicit LineSplitter(std::size_t max_line) : max_line_(max_line) {}
 
-  // Takes bytes in any portions. False once a line was longer than the limit: the stream can't be trusted any more.
+  // Takes bytes in any portions. False once a line was longer than the limit: the stream can't be trusted any more,
+  // but the lines before it stand.
   bool push(std::string_view bytes);
   // The next complete line without its end; valid until the next push. Empty lines are skipped.
   std::optional<std::string_view> next();
@@ -25,6 +26,7 @@ class LineSplitter {
   std::size_t begin_ = 0;    // of the line being looked for
   std::size_t scanned_ = 0;  // no line end before this
   std::size_t pending_ = 0;  // bytes since the last line end
+  bool too_long_ = false;
 };
 
 }  // namespace posed::proto

@@ -18,6 +18,7 @@ namespace posed::proto {
 inline constexpr int kProtocol = 1;
 inline constexpr std::size_t kMaxLineBytes = 1 << 20;
 inline constexpr int kMaxDepth = 64;
+inline constexpr std::size_t kMaxBatch = 1000;  // requests; the answer to a bad one is a hundred times its size
 inline constexpr int kDefaultPort = 19870;
 
 // ---- requests ----------------------------------------------------------------------------------------------------

@@ -71,6 +71,13 @@ void append_id(std::string& out, std::string_view id) {
   out.append("\"").append(id).append("\"");
 }
 
+// A flag quotes a byte of the device, which may be any: what is no plain character becomes "?".
+void append_flag(std::string& out, std::string_view flag) {
+  out += '"';
+  for (const char c : flag) out += c < ' ' || c > '~' || c == '"' || c == '\\' ? '?' : c;
+  out += '"';
+}
+
 void append_goal(std::string& out, const GoalFrame& goal) {
   out += "{\"id\":";
   append_id(out, goal.id);
@@ -193,7 +200,7 @@ std::string encode_tracker_frame(std::uint64_t seq, const TrackerData& data) {
     out += ",\"flags\":[";
     for (std::size_t k = 0; k < s.flags.size(); ++k) {
       if (k > 0) out += ',';
-      append_id(out, s.flags[k]);
+      append_flag(out, s.flags[k]);
     }
     out += ']';
     append_field(out, "device_count", s.device_count);

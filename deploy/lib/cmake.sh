@@ -16,12 +16,19 @@ check_compiler() {
   ((${version%%.*} >= least)) || fail "$cxx is $name $version, and posed needs g++ 12 or clang++ 14: name another with CXX=..."
 }
 
-# build_preset PRESET [CMAKE_OPTION...]: configures when it is new or when options are given, then builds all of it.
+# Clones of one project at different places share what was compiled.
+export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1
+
+# build_preset PRESET [CMAKE_OPTION...]
 build_preset() {
+  configure_preset "$@"
+  build_targets "$1"
+}
+
+# configure_preset PRESET [CMAKE_OPTION...]: when it is new, or when options are given.
+configure_preset() {
   local preset=$1 dir=build/$1
   shift
-  # Clones of one project at different places share what was compiled.
-  export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1
   local fresh=()
   if [[ -f $dir/CMakeCache.txt ]] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$PWD" "$dir/CMakeCache.txt"; then
     fresh=(--fresh) # the folder has been moved since
@@ -34,5 +41,11 @@ build_preset() {
       fail "cmake could not configure $dir"
     }
   fi
-  cmake --build "$dir" --parallel "$(jobs)" || fail "$dir did not build"
+}
+
+# build_targets PRESET [TARGET...]: all of them when none is named.
+build_targets() {
+  local dir=build/$1
+  shift
+  cmake --build "$dir" --parallel "$(jobs)" ${1+--target "$@"} || fail "$dir did not build"
 }

@@ -12,13 +12,5 @@ build_release() {
     set -- -DPOSED_TESTS=OFF -DPOSED_BENCH=OFF "$@"
   fi
   build_preset release "$@"
-  scenes build/release
   viewer_build build/release
-}
-
-# The built-in scenes stand where DIR/bin/posed looks for them.
-scenes() {
-  if [[ ! -d server/scene/templates ]]; then return; fi
-  mkdir -p "$1/share/posed/scenes"
-  cp -R server/scene/templates/. "$1/share/posed/scenes"
 }

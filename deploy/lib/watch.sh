@@ -16,6 +16,7 @@ run_step() {
 
   if ((rc != 0)); then printf 'failed 1 deploy/steps/%s broke off with %d\n' "$step" "$rc" >>"$tally"; fi
   if [[ ! -s $tally ]]; then echo "failed 1 $step tested nothing" >>"$tally"; fi
+  cat "$tally" >>"$logs/tally"
   row "$step" "$tally" $((SECONDS - begun)) | tee -a "$logs/table"
   if grep -q '^failed' "$tally"; then
     note "---- the end of $log"

@@ -5,23 +5,46 @@
 #include "server/scene/scene.h"
 
 namespace posed {
+namespace {
 
-Result<SceneBinding> Scene::make_binding(Binding binding, const std::map<std::string, SceneGoal>& goals) const {
-  if (!goals.contains(binding.goal)) return unknown("goal", binding.goal, keys(goals), "/to/goal");
-  if (!(std::abs(binding.scale) <= 1000.0))
-    return Error{"out_of_range", "the scale is out of range", "/scale", "-1000 to 1000"};
-  SceneBinding made;
-  const std::size_t colon = binding.sensor.rfind(':');
-  const char* const end = binding.sensor.data() + binding.sensor.size();
-  bool good = colon != std::string::npos && valid_id(binding.sensor.substr(0, colon));
+struct Sensor {
+  std::string device;
+  int station = 0;
+};
+
+Result<Sensor> read_sensor(const std::string& name) {
+  Sensor sensor;
+  const std::size_t colon = name.rfind(':');
+  const char* const end = name.data() + name.size();
+  bool good = colon != std::string::npos && valid_id(std::string_view(name).substr(0, colon));
   if (good) {
-    const auto parsed = std::from_chars(binding.sensor.data() + colon + 1, end, made.station);
-    good = parsed.ec == std::errc{} && parsed.ptr == end && made.station >= 1 && made.station <= 256;
+    const auto parsed = std::from_chars(name.data() + colon + 1, end, sensor.station);
+    good = parsed.ec == std::errc{} && parsed.ptr == end && sensor.station >= 1 && sensor.station <= 256;
   }
   if (!good)
     return Error{"unknown_sensor", "a sensor is named DEVICE:STATION", "/sensor",
                  "as in simulated:1; tracker.list names them"};
-  made.device = binding.sensor.substr(0, colon);
+  sensor.device = name.substr(0, colon);
+  return sensor;
+}
+
+}  // namespace
+
+Result<SceneBinding> Scene::make_binding(Binding binding) const {
+  if (!goals_.contains(binding.goal)) return unknown("goal", binding.goal, keys(goals_), "/to/goal");
+  for (const auto& [id, other] : bindings_) {
+    if (id != binding.id && other.binding.goal == binding.goal) {
+      return Error{"invalid_params", "goal " + binding.goal + " is already moved by binding " + id, "/to/goal",
+                   "remove that binding first"};
+    }
+  }
+  if (!(std::abs(binding.scale) <= 1000.0))
+    return Error{"out_of_range", "the scale is out of range", "/scale", "-1000 to 1000"};
+  const Result<Sensor> sensor = read_sensor(binding.sensor);
+  if (!sensor) return sensor.error();
+  SceneBinding made;
+  made.device = sensor->device;
+  made.station = sensor->station;
   made.binding = std::move(binding);
   made.revision = 1;
   return made;
@@ -33,6 +56,8 @@ Result<Edited> Scene::set_binding(const BindingEdit& edit, IfRevision if_revisio
     if (!edit.sensor)
       return Error{"missing_field", "the binding has neither an id nor a sensor", "/sensor",
                    "\"sensor\":\"simulated:1\""};
+    // First, so that a mistyped sensor is told as such and not as a bad id.
+    if (const auto sensor = read_sensor(*edit.sensor); !sensor) return sensor.error();
     id = *edit.sensor;
     std::replace(id.begin(), id.end(), ':', '.');
   }
@@ -56,18 +81,11 @@ Result<Edited> Scene::set_binding(const BindingEdit& edit, IfRevision if_revisio
   edit.label.apply(binding.label);
   edit.user.apply(binding.user);
 
-  Result<SceneBinding> made = make_binding(std::move(binding), goals_);
+  Result<SceneBinding> made = make_binding(std::move(binding));
   if (!made) return made.error();
-  const std::string& goal = made->binding.goal;
-  for (const auto& [other_id, other] : bindings_) {
-    if (other_id != id && other.binding.goal == goal) {
-      return Error{"invalid_params", "goal " + goal + " is already moved by binding " + other_id, "/to/goal",
-                   "remove that binding first"};
-    }
-  }
   if (before != bindings_.end()) {
     made->revision = before->second.revision + 1;
-    if (before->second.binding.goal != goal) goals_.at(before->second.binding.goal).live.reset();
+    if (before->second.binding.goal != made->binding.goal) let_go(goals_.at(before->second.binding.goal));
   }
   const Revision revision = made->revision;
   bindings_.insert_or_assign(id, std::move(*made));
@@ -78,10 +96,7 @@ Result<Edited> Scene::remove_binding(const std::string& id, IfRevision if_revisi
   const auto found = bindings_.find(id);
   if (found == bindings_.end()) return unknown("binding", id, keys(bindings_), "/id");
   if (const auto error = stale(bindings_, id, if_revision)) return *error;
-  // The goal stays where the sensor left it: letting go of a thing does not throw it back.
-  SceneGoal& goal = goals_.at(found->second.binding.goal);
-  if (goal.live) goal.goal.position = *goal.live;
-  goal.live.reset();
+  let_go(goals_.at(found->second.binding.goal));
   bindings_.erase(found);
   return Edited{id, ++revision_, 0};
 }

@@ -20,7 +20,16 @@ std::vector<std::string> keys(const Map& map) {
 
 inline Error unknown(const std::string& what, const std::string& name, const std::vector<std::string>& known,
                      const std::string& path) {
-  return {"unknown_" + what, "no " + what + " is called " + name.substr(0, 64), path, did_you_mean(name, known)};
+  std::string hint = did_you_mean(name, known);
+  if (hint.empty()) hint = known.empty() ? what + ".set makes one" : what + ".list names them";
+  return {"unknown_" + what, "no " + what + " is called " + name.substr(0, 64), path, std::move(hint)};
+}
+
+// A key of a document as a part of a JSON pointer, cut where no id is that long.
+inline std::string token(const std::string& key) {
+  std::string text;
+  for (const char c : key.substr(0, 64)) text += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
+  return text;
 }
 
 // An error of a part, seen from the whole.

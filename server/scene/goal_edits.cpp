@@ -1,5 +1,6 @@
 #include "server/scene/errors.h"
 #include "server/scene/scene.h"
+#include "server/solver/figure_check.h"
 
 namespace posed {
 namespace {
@@ -15,6 +16,10 @@ Result<SceneGoal> Scene::make_goal(Goal goal, const std::map<std::string, SceneF
   const Result<AttachedPoint> at = figure->second.tree->attach(goal.at);
   if (!at) return below("/at", at.error());
   for (int i = 0; i < 3; ++i) {
+    if (goal.at.point && !(std::abs((*goal.at.point)[i]) <= kMaxLength)) {
+      return Error{"out_of_range", "the point is too far from its segment", "/at/point/" + std::to_string(i),
+                   "within 10000 m, in the segment's frame"};
+    }
     if (!(std::abs(goal.position[i]) <= kMaxCoordinate)) {
       return Error{"out_of_range", "the position is too far away", "/position/" + std::to_string(i),
                    "within 1000 km of the origin"};

@@ -20,18 +20,24 @@ SceneDocument Scene::document() const {
 Status Scene::load(const SceneDocument& document) {
   Scene next;
   for (const auto& [id, entry] : document.figures) {
-    Result<SceneFigure> figure = check_id(id) ? make_figure(entry) : check_id(id).error();
-    if (!figure) return below("/figures/" + id, figure.error());
+    FigureEntry named = entry;
+    named.id = id;
+    Result<SceneFigure> figure = check_id(id) ? make_figure(std::move(named)) : check_id(id).error();
+    if (!figure) return below("/figures/" + token(id), figure.error());
     next.figures_.emplace(id, std::move(*figure));
   }
   for (const auto& [id, entry] : document.goals) {
-    Result<SceneGoal> goal = check_id(id) ? make_goal(entry, next.figures_) : check_id(id).error();
-    if (!goal) return below("/goals/" + id, goal.error());
+    Goal named = entry;
+    named.id = id;
+    Result<SceneGoal> goal = check_id(id) ? make_goal(std::move(named), next.figures_) : check_id(id).error();
+    if (!goal) return below("/goals/" + token(id), goal.error());
     next.goals_.emplace(id, std::move(*goal));
   }
   for (const auto& [id, entry] : document.bindings) {
-    Result<SceneBinding> binding = check_id(id) ? make_binding(entry, next.goals_) : check_id(id).error();
-    if (!binding) return below("/bindings/" + id, binding.error());
+    Binding named = entry;
+    named.id = id;
+    Result<SceneBinding> binding = check_id(id) ? next.make_binding(std::move(named)) : check_id(id).error();
+    if (!binding) return below("/bindings/" + token(id), binding.error());
     next.bindings_.emplace(id, std::move(*binding));
   }
   next.revision_ = revision_ + 1;
@@ -70,6 +76,14 @@ int Scene::clear_goals(const std::string& figure) {
   }
   if (removed > 0) ++revision_;
   return removed;
+}
+
+// The goal stays where the sensor left it: letting go of a thing does not throw it back.
+void Scene::let_go(SceneGoal& goal) {
+  if (!goal.live) return;
+  goal.goal.position = *goal.live;
+  goal.live.reset();
+  ++goal.revision;
 }
 
 void Scene::drop_goal(const std::string& id) {

@@ -89,7 +89,8 @@ class Scene {
   Status check_id(const std::string& id) const;
   Result<SceneFigure> make_figure(FigureEntry entry) const;
   Result<SceneGoal> make_goal(Goal goal, const std::map<std::string, SceneFigure>& figures) const;
-  Result<SceneBinding> make_binding(Binding binding, const std::map<std::string, SceneGoal>& goals) const;
+  Result<SceneBinding> make_binding(Binding binding) const;
+  static void let_go(SceneGoal& goal);
   void drop_goal(const std::string& id);
 
   Revision revision_ = 0;

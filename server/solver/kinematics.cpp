@@ -42,7 +42,9 @@ void forward_kinematics(const BodyTree& tree, std::span<const double> q, std::sp
 
 void normalise_quaternions(const BodyTree& tree, std::span<double> q) {
   each_quaternion(tree, [&](std::size_t first) {
-    const auto r = xyzw(glm::normalize(quat_from_xyzw(q.subspan(first, 4))));
+    const Quat given = quat_from_xyzw(q.subspan(first, 4));
+    if (std::abs(glm::dot(given, given) - 1.0) < 1e-14) return;  // a second time changes nothing
+    const auto r = xyzw(glm::normalize(given));
     std::copy(r.begin(), r.end(), q.begin() + static_cast<std::ptrdiff_t>(first));
   });
 }

@@ -99,15 +99,19 @@ std::size_t ReachPose::save(const ReachNode& node) {
 }
 
 void ReachPose::restore(const ReachNode& node, std::size_t mark) {
-  const Vec3 moved{q_[0], q_[1], q_[2]};
+  const bool is_root = node.parent < 0;
+  const Vec3 strayed = is_root ? root_position() : kZero;
   std::size_t from = mark;
   each_share(node, [&](std::size_t first, std::size_t size) {
     std::copy_n(&undo_[from], size, &q_[first]);
     from += size;
   });
   undo_top_ = mark;
-  if (node.parent < 0) return carry(Vec3{q_[0], q_[1], q_[2]} - moved);
-  refresh(node.begin, node.end);
+  if (is_root) {
+    carry(root_position() - strayed);
+  } else {
+    refresh(node.begin, node.end);
+  }
 }
 
 }  // namespace posed

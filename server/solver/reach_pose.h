@@ -32,12 +32,14 @@ class ReachPose {
 
   // Saves what bend_chain or (of the root node) translate and all that follows below the node can change; returns the
   // mark to go back to, innermost first, or to drop.
+  // The root node may be saved only where the body root is free.
   std::size_t save(const ReachNode& node);
   void restore(const ReachNode& node, std::size_t mark);
   void drop(std::size_t mark) { undo_top_ = mark; }
 
  private:
-  void carry(const Vec3& by);  // the reach tree's world transforms after the body root
+  Vec3 root_position() const { return {q_[0], q_[1], q_[2]}; }  // of a free root
+  void carry(const Vec3& by);                                   // the reach tree's world transforms after the body root
   void refresh(int begin, int end);
   // Calls f(first, size) for each run of q that belongs to the node.
   template <class F>

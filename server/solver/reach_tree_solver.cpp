@@ -15,7 +15,7 @@
 // - the global matrices are never computed anew after a chain is solved, nor after the root is moved: refresh() does;
 // - it moves first and tests afterwards, so that a tree that rests is moved once in vain and a step that loses is kept.
 //   The text's list tests before it moves ("zero magnitude or no smaller than previous iteration"): that is done here,
-//   and a step that did not gain is undone;
+//   and a step that did not gain is undone. At the root that rule alone would quit too soon, see balance_root;
 // - a branch node that holds no goal adds weight 0, and its touch point is what is placed.
 
 namespace posed {
@@ -25,9 +25,15 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
-// A goal that is off by less counts as off by this much in balance_error's denominator: a share of nothing says
+// m. Of balance_error's denominator: where every goal is as good as reached, a share of the pulls would be one of
 // nothing.
-constexpr double kLeastTerm = 1e-3;
+constexpr double kLeastMiss = 1e-6;
+
+// m. A node whose goals are off by less on the weighted mean is left where it is.
+constexpr double kRest = 1e-12;
+
+// Passes at the root without gain after which it stalls.
+constexpr int kPatience = 10;
 
 }  // namespace
 
@@ -51,8 +57,9 @@ void ReachTreeSolver::prepare(std::span<const ReachGoal> goals) {
   pose_.resize();
   loads_.resize(reach_.nodes.size());
   std::fill(node_of_segment_.begin(), node_of_segment_.end(), -1);
-  for (std::size_t n = 0; n < reach_.nodes.size(); ++n)
+  for (std::size_t n = 0; n < reach_.nodes.size(); ++n) {
     node_of_segment_[at(reach_.nodes[n].segment)] = static_cast<int>(n);
+  }
 }
 
 void ReachTreeSolver::solve(std::span<double> q, std::span<const ReachGoal> goals, const ReachTreeOptions& options,
@@ -72,7 +79,7 @@ void ReachTreeSolver::solve(std::span<double> q, std::span<const ReachGoal> goal
     load_goals(goals);
     out.report.status =
         tree_->root_is_free() ? balance_root(goals, should_stop) : balance_below_fixed_root(should_stop);
-    out.report.balance_error = balance_error(goals);
+    out.report.balance_error = sum(goals).balance_error;
   }
 
   keep_signs(*tree_, out.q, q);
@@ -106,31 +113,51 @@ void ReachTreeSolver::load_goals(std::span<const ReachGoal> goals) {
     load.target += (target - load.target) * share;
     farthest = std::max({farthest, std::abs(target.x), std::abs(target.y), std::abs(target.z)});
   }
-  rounding_ = 8.0 * std::numeric_limits<double>::epsilon() * farthest;
+  rest_ = std::max(kRest, 8.0 * std::numeric_limits<double>::epsilon() * farthest);
 }
 
+// Below the root each node moves but a few times a pass, so while it settles the root's displacement may grow for some
+// passes although all goals come nearer. A pass gains if either the displacement or the cost is the least so far.
 SolveStatus ReachTreeSolver::balance_root(std::span<const ReachGoal> goals, const std::function<bool()>& should_stop) {
   const ReachNode& node = reach_.nodes[0];
   Load& root = loads_[0];
   balance_sons(0);
   measure(0);
-  while (!rests(0) && balance_error(goals) > options_.balance_tolerance) {
-    if (iterations_ >= options_.root_iterations || spent()) return SolveStatus::stalled;
-    if (should_stop && should_stop()) return SolveStatus::deadline;
+  Sums sums = sum(goals);
+  double least_stwd = glm::length(root.stwd), least_cost = sums.cost;
+  Load gained = root;
+  std::size_t mark = pose_.save(node);
+  int lost = 0;  // passes since
+  SolveStatus status = SolveStatus::converged;
+  while (!rests(0) && sums.balance_error > options_.balance_tolerance) {
+    status = SolveStatus::stalled;
+    if (lost > kPatience || iterations_ >= options_.root_iterations || spent()) break;
+    if (should_stop && should_stop()) {
+      status = SolveStatus::deadline;
+      break;
+    }
+    status = SolveStatus::converged;
     ++iterations_;
-    const Load before = root;
-    const std::size_t mark = pose_.save(node);
     pose_.translate(root.stwd / root.stweight);
     balance_sons(0);
     measure(0);
-    if (glm::length(root.stwd) >= glm::length(before.stwd)) {
-      pose_.restore(node, mark);
-      root = before;
-      return SolveStatus::stalled;
+    sums = sum(goals);
+    const double stwd = glm::length(root.stwd);
+    ++lost;
+    if (stwd < least_stwd || sums.cost < least_cost) {
+      lost = 0;
+      gained = root;
+      pose_.drop(mark);
+      mark = pose_.save(node);
     }
-    pose_.drop(mark);
+    least_stwd = std::min(least_stwd, stwd);
+    least_cost = std::min(least_cost, sums.cost);
   }
-  return SolveStatus::converged;
+  if (status != SolveStatus::converged && lost > 0) {
+    pose_.restore(node, mark);
+    root = gained;
+  }
+  return status;
 }
 
 // What its sons pull is borne by whatever holds the root, so no sum has to vanish: each is balanced as well as can be.
@@ -191,22 +218,24 @@ void ReachTreeSolver::measure(int n) {
 
 bool ReachTreeSolver::rests(int n) const {
   const Load& load = loads_[at(n)];
-  return glm::length(load.stwd) <= rounding_ * load.stweight;
+  return glm::length(load.stwd) <= rest_ * load.stweight;
 }
 
 bool ReachTreeSolver::spent() const {
   return chain_solves_ >= options_.chain_solve_limit;
 }
 
-double ReachTreeSolver::balance_error(std::span<const ReachGoal> goals) const {
-  double terms = 0.0;
+ReachTreeSolver::Sums ReachTreeSolver::sum(std::span<const ReachGoal> goals) const {
+  double pulls = 0.0, weights = 0.0, cost = 0.0;
   for (const ReachGoal& goal : goals) {
     const double weight = pull_of(goal) / heaviest_;
     if (!(weight > 0.0)) continue;
-    const Vec3 miss = target_of(goal) - pose_.world_point(goal.segment, goal.point);
-    terms += weight * std::max(glm::length(miss), kLeastTerm);
+    const double miss = glm::length(target_of(goal) - pose_.world_point(goal.segment, goal.point));
+    pulls += weight * miss;
+    weights += weight;
+    cost += weight * miss * miss;
   }
-  return terms > 0.0 ? glm::length(loads_[0].stwd) / terms : 0.0;
+  return {glm::length(loads_[0].stwd) / std::max(pulls, kLeastMiss * weights), cost};
 }
 
 }  // namespace posed

@@ -66,6 +66,11 @@ class ReachTreeSolver {
     double stweight = 0.0;       // total subtree weight
   };
 
+  struct Sums {
+    double balance_error = 0.0;  // as in SolveReport
+    double cost = 0.0;           // with weights as shares of the heaviest
+  };
+
   void load_goals(std::span<const ReachGoal> goals);
   SolveStatus balance_root(std::span<const ReachGoal> goals, const std::function<bool()>& should_stop);
   SolveStatus balance_below_fixed_root(const std::function<bool()>& should_stop);
@@ -74,7 +79,7 @@ class ReachTreeSolver {
   void measure(int node);
   bool rests(int node) const;
   bool spent() const;
-  double balance_error(std::span<const ReachGoal> goals) const;
+  Sums sum(std::span<const ReachGoal> goals) const;
 
   std::shared_ptr<const BodyTree> tree_;
   ReachTreeBuilder builder_;
@@ -89,7 +94,7 @@ class ReachTreeSolver {
   // Of the solve under way.
   ReachTreeOptions options_;
   double heaviest_ = 1.0;
-  double rounding_ = 0.0;  // m; a displacement below it is none
+  double rest_ = 0.0;  // m; a displacement below it is none
   int chain_solves_ = 0;
   int iterations_ = 0;
 };

@@ -17,24 +17,30 @@ Database::Database(const std::filesystem::path& file) : file_(file) {
                              "; choose another directory with --data");
   }
   sqlite3_busy_timeout(db, 2000);
-  const int found = version();
+  const int found = number("PRAGMA user_version");
   if (found > kSchema) {
     throw std::runtime_error(file.string() + " was written by a newer posed (format " + std::to_string(found) +
                              "); it is left as it is: update posed, or choose another directory with --data");
   }
+  if (found < kSchema && number("SELECT count(*) FROM sqlite_master") > 0) refuse("another program made it");
   execute("PRAGMA journal_mode = WAL");
   execute("PRAGMA synchronous = FULL");
+  if (found == kSchema) return;
+  execute("BEGIN IMMEDIATE");
   execute("CREATE TABLE IF NOT EXISTS scene (name TEXT PRIMARY KEY, document TEXT NOT NULL) WITHOUT ROWID");
-  if (found < kSchema) execute(("PRAGMA user_version = " + std::to_string(kSchema)).c_str());
+  execute(("PRAGMA user_version = " + std::to_string(kSchema)).c_str());
+  execute("COMMIT");
 }
 
-int Database::version() {
-  const Statement statement = prepare("PRAGMA user_version");
-  if (!statement || sqlite3_step(statement.get()) != SQLITE_ROW) {
-    throw std::runtime_error(file_.string() + " is not a posed database (" + sqlite3_errmsg(db_.get()) +
-                             "); it is left as it is: move it away, or choose another directory with --data");
-  }
+int Database::number(const char* sql) {
+  const Statement statement = prepare(sql);
+  if (!statement || sqlite3_step(statement.get()) != SQLITE_ROW) refuse(sqlite3_errmsg(db_.get()));
   return sqlite3_column_int(statement.get(), 0);
+}
+
+void Database::refuse(const std::string& why) const {
+  throw std::runtime_error(file_.string() + " is not a posed database (" + why +
+                           "); it is left as it is: move it away, or choose another directory with --data");
 }
 
 void Database::execute(const char* sql) {

@@ -29,8 +29,9 @@ class Database {
 
   Statement prepare(const char* sql);
   Error failure(const char* doing) const;
-  int version();
+  int number(const char* sql);    // throws
   void execute(const char* sql);  // throws
+  [[noreturn]] void refuse(const std::string& why) const;
 
   std::filesystem::path file_;
   std::unique_ptr<sqlite3, Closer> db_;

@@ -133,10 +133,11 @@ void LibertySession::listen(Milliseconds patience) {
 
 void LibertySession::decode() {
   for (const UsbChunk& chunk : pipe_.take()) {
+    const std::uint64_t bad_before = decoder_.bad_bytes();
     if (chunk.gap) decoder_.lost_bytes();
     LibertyOutput out = decoder_.feed(chunk.bytes, chunk.t_ns);
+    board_.add_bad_bytes(decoder_.bad_bytes() - bad_before);
     for (const LibertyReply& reply : out.replies) hear(reply);
-    board_.set_bad_bytes(decoder_.bad_bytes());
     if (!out.frames.empty()) board_.set(State::streaming, complaint_);
     for (Frame& frame : out.frames) board_.pass_on(std::move(frame));
   }

@@ -17,7 +17,7 @@ class StatusBoard {
 
   void set(State state, std::string message);
   void pass_on(Frame frame);  // counts it first
-  void set_bad_bytes(std::uint64_t count) { status_.bad_bytes = count; }
+  void add_bad_bytes(std::uint64_t count) { status_.bad_bytes += count; }
   void tick();  // call often: says the once-a-second status where it is due
   State state() const { return status_.state; }
   std::uint64_t frames() const { return status_.frames; }

@@ -2,7 +2,9 @@
 
 #include <libusb.h>
 
-#include <algorithm>
+#include <sys/types.h>
+
+#include <utility>
 
 namespace posed::tracker {
 
@@ -42,8 +44,8 @@ int UsbBus::on_hotplug(libusb_context*, libusb_device*, int, void* bus) {
 std::vector<UsbDevicePtr> UsbBus::devices() const {
   std::vector<UsbDevicePtr> found;
   libusb_device** list = nullptr;
-  const auto count = libusb_get_device_list(context_, &list);
-  for (decltype(libusb_get_device_list(context_, &list)) i = 0; i < count; ++i) {
+  const ssize_t count = libusb_get_device_list(context_, &list);
+  for (ssize_t i = 0; i < count; ++i) {
     libusb_device_descriptor descriptor{};
     if (libusb_get_device_descriptor(list[i], &descriptor) == LIBUSB_SUCCESS && descriptor.idVendor == vendor_) {
       found.emplace_back(libusb_ref_device(list[i]), libusb_unref_device);
@@ -66,11 +68,6 @@ void UsbBus::interrupt() {
 
 bool UsbBus::take_change() {
   return std::exchange(changed_, false);
-}
-
-bool UsbBus::has_left(const UsbDevicePtr& device) const {
-  const std::vector<UsbDevicePtr> there = devices();
-  return std::find(there.begin(), there.end(), device) == there.end();
 }
 
 UsbIdentity UsbBus::identity(const UsbDevicePtr& device) {

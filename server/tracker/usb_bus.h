@@ -2,7 +2,6 @@
 // interrupt() may be called from any.
 #pragma once
 
-#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <memory>
@@ -34,7 +33,6 @@ class UsbBus {
   void handle_events(std::chrono::milliseconds at_most);
   void interrupt();    // makes handle_events return
   bool take_change();  // whether one of the vendor's came or went since the last call
-  bool has_left(const UsbDevicePtr& device) const;
 
   static UsbIdentity identity(const UsbDevicePtr& device);
 

@@ -7,10 +7,14 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <system_error>
+#include <vector>
 
 namespace posed::tracker {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr auto kPatience = std::chrono::seconds(1);
 constexpr auto kPause = std::chrono::milliseconds(5);
@@ -22,6 +26,10 @@ int claim_once(libusb_device_handle* handle) {
     // Setting one that is set already would reset the device, so this is done only where there is none.
     if (const int code = libusb_set_configuration(handle, 1); code != LIBUSB_SUCCESS) return code;
   }
+  const int code = libusb_claim_interface(handle, 0);
+  // A generic kernel driver (usbserial, told to) may sit on it; another program must not be pushed off.
+  if (code != LIBUSB_ERROR_BUSY || libusb_kernel_driver_active(handle, 0) != 1) return code;
+  libusb_detach_kernel_driver(handle, 0);
   return libusb_claim_interface(handle, 0);
 }
 
@@ -37,10 +45,19 @@ std::string name_of(const UsbIdentity& who) {
   return "the USB device " + std::string(text) + " (" + node_of(who) + ")";
 }
 
+// Processes come and go while one looks, and most may not be looked into: both end the list, neither throws.
+std::vector<fs::path> entries(const fs::path& folder) {
+  std::vector<fs::path> found;
+  std::error_code error;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    found.push_back(at->path());
+  }
+  return found;
+}
+
 }  // namespace
 
 int claim_usb_interface(UsbBus& bus, libusb_device_handle* handle, const std::function<bool()>& stopping) {
-  libusb_set_auto_detach_kernel_driver(handle, 1);
   const auto deadline = std::chrono::steady_clock::now() + kPatience;
   for (;;) {
     const int code = claim_once(handle);
@@ -97,16 +114,16 @@ Error usb_open_error(int code, const UsbIdentity& who) {
 }
 
 std::string usb_holder(const UsbIdentity& who) {
-  namespace fs = std::filesystem;
   const std::string node = node_of(who);
-  std::error_code ignored;
-  for (const auto& process : fs::directory_iterator("/proc", ignored)) {
-    const std::string pid = process.path().filename();
+  for (const fs::path& process : entries("/proc")) {
+    const std::string pid = process.filename();
     if (pid.find_first_not_of("0123456789") != std::string::npos || pid == std::to_string(::getpid())) continue;
-    for (const auto& descriptor : fs::directory_iterator(process.path() / "fd", ignored)) {
-      if (fs::read_symlink(descriptor.path(), ignored) != node) continue;
+    for (const fs::path& descriptor : entries(process / "fd")) {
+      std::error_code ignored;
+      if (fs::read_symlink(descriptor, ignored) != node) continue;
+      std::ifstream comm(process / "comm");
       std::string name;
-      std::getline(std::ifstream(process.path() / "comm") >> std::ws, name);
+      std::getline(comm, name);
       return name + " (process " + pid + ")";
     }
   }

@@ -3,6 +3,7 @@
 #include <libusb.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "server/tracker/usb_claim.h"
 

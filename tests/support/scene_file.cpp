@@ -20,7 +20,9 @@ T expect(Result<T> result) {
   return std::move(*result);
 }
 
-Vec3 vec3(const json& j) { return {j.at(0).get<double>(), j.at(1).get<double>(), j.at(2).get<double>()}; }
+Vec3 vec3(const json& j) {
+  return {j.at(0).get<double>(), j.at(1).get<double>(), j.at(2).get<double>()};
+}
 
 Attachment attachment(const json& j) {
   if (j.is_object()) return {j.at("segment").get<std::string>(), vec3(j.at("point")), ""};
@@ -38,7 +40,9 @@ int SceneFile::index(const std::string& id) const {
   return static_cast<int>(found - ids.begin());
 }
 
-ReachGoal& SceneFile::goal(const std::string& id) { return goals[static_cast<std::size_t>(index(id))]; }
+ReachGoal& SceneFile::goal(const std::string& id) {
+  return goals[static_cast<std::size_t>(index(id))];
+}
 
 SceneFile read_scene(const std::string& text) {
   const json document = json::parse(text);

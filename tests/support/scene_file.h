@@ -1,5 +1,5 @@
-// A scene document as the solver takes it, for tests and benchmarks. Reads as little of "posed.scene/1" as they need: one
-// figure made from the built-in template, and position goals in the world. The product's codec is in proto/.
+// A scene document as the solver takes it, for tests and benchmarks. Reads as little of "posed.scene/1" as they need:
+// one figure made from the built-in template, and position goals in the world. The product's codec is in proto/.
 #pragma once
 
 #include <memory>
@@ -13,7 +13,7 @@ namespace posed::test {
 
 struct SceneFile {
   std::shared_ptr<const BodyTree> tree;
-  std::vector<double> start;  // joint values
+  std::vector<double> start;     // joint values
   std::vector<std::string> ids;  // of the goals, sorted
   std::vector<ReachGoal> goals;  // in the same order
 

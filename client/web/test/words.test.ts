@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { connectionText } from "../src/panels/bar";
-import { atText, causesText, errorText, sliderFromWeight, weightFromSlider } from "../src/panels/words";
+import { atText, causesText, costText, errorText, sliderFromWeight, weightFromSlider } from "../src/panels/words";
 
 describe("words", () => {
   it("name what a goal pulls", () => {
@@ -13,7 +13,9 @@ describe("words", () => {
     expect(errorText(0.00042)).toBe("0.4 mm");
     expect(errorText(0.359)).toBe("359 mm");
     expect(causesText([{ goal: "g2" }, { beyond_m: 0.12 }])).toBe("held by g2 · 120 mm beyond reach");
+    expect(causesText([{ goal: "left_knee" }, { goal: "body.right_hand.position" }])).toBe("held by left knee, right hand");
     expect(causesText(undefined)).toBe("");
+    expect([costText(3.08e-31), costText(0.01234), costText(4.5)]).toEqual(["0", "0.0123", "4.5"]);
   });
 
   it("run the weight slider over four decades and back", () => {

@@ -1,6 +1,7 @@
 // One line for each figure: how its solve ended and what its goals cost.
 import type { Model } from "../state/model";
 import { element, Rows, setText } from "./dom";
+import { costText } from "./words";
 
 export class FigurePanel {
   readonly root = element("section", { className: "panel", testid: "figure-panel" });
@@ -24,7 +25,7 @@ export class FigurePanel {
       const pose = model.poses.get(id);
       setText(row.status, pose?.status ?? "");
       row.root.dataset["status"] = pose?.status ?? "";
-      setText(row.cost, pose ? `cost ${pose.cost.toPrecision(3)}` : "");
+      setText(row.cost, pose ? `cost ${costText(pose.cost)}` : "");
     }
   }
 }

@@ -3,7 +3,7 @@ import type { GoalDocument, GoalPose } from "../protocol/types";
 import type { Model } from "../state/model";
 import type { Requests } from "../tools/requests";
 import { button, element, Rows, setText } from "./dom";
-import { atText, causesText, errorText, sliderFromWeight, weightFromSlider, weightText } from "./words";
+import { atText, causesText, errorText, goalName, sliderFromWeight, weightFromSlider, weightText } from "./words";
 
 export class GoalPanel {
   readonly root = element("section", { className: "panel", testid: "goal-panel" });
@@ -36,7 +36,7 @@ export class GoalPanel {
 
 class GoalRow {
   readonly root: HTMLElement;
-  private readonly at = element("span", { className: "goal-at" });
+  private readonly name = element("span", { className: "goal-name" });
   private readonly state = element("span", { className: "goal-state", testid: "goal-state" });
   private readonly error = element("span", { className: "goal-error", testid: "goal-error" });
   private readonly note = element("div", { className: "goal-note" });
@@ -68,8 +68,8 @@ class GoalRow {
     this.root = element(
       "div",
       { className: "row goal", testid: `goal-${id}`, title: id },
-      element("div", { className: "line" }, this.enabled, this.at, this.state, this.error, remove),
-      element("div", { className: "line" }, element("span", { className: "dim", text: "weight" }), this.weight, this.weightValue),
+      element("div", { className: "line" }, this.enabled, this.name, this.state, this.error),
+      element("div", { className: "line" }, element("span", { className: "dim", text: "weight" }), this.weight, this.weightValue, remove),
       this.note,
     );
     this.root.addEventListener("pointerdown", () => model.select(id));
@@ -81,10 +81,11 @@ class GoalRow {
     const state = enabled ? (pose?.state ?? "off") : "off";
     this.root.classList.toggle("selected", selected);
     this.root.dataset["state"] = state;
-    setText(this.at, goal.label || atText(goal.at));
+    const [name, at] = [goal.label || goalName(this.id), atText(goal.at)];
+    setText(this.name, name);
     setText(this.state, state);
     setText(this.error, enabled && pose ? errorText(pose.error) : "");
-    const notes = [sensor ? `follows ${sensor}` : "", enabled ? causesText(pose?.causes) : ""].filter(Boolean);
+    const notes = [at === name ? "" : `at ${at}`, sensor ? `follows ${sensor}` : "", enabled ? causesText(pose?.causes) : ""].filter(Boolean);
     setText(this.note, notes.join(" · "));
     this.note.hidden = notes.length === 0;
     // What the user has just set stays until the daemon has answered.

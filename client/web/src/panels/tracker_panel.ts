@@ -9,10 +9,14 @@ export class TrackerPanel {
   private readonly list = element("div", { className: "rows" });
   private readonly empty = element("p", { className: "empty", text: "No tracker is attached. Start the daemon with --tracker simulated to try one." });
   private readonly rows: Rows<TrackerRow>;
+  private readonly orphans = element("div", { testid: "orphan-bindings" });
   private seen = "";
 
-  constructor(model: Model, requests: Requests) {
-    this.root.append(element("h2", { text: "Trackers" }), this.empty, this.list);
+  constructor(
+    model: Model,
+    private readonly requests: Requests,
+  ) {
+    this.root.append(element("h2", { text: "Trackers" }), this.empty, this.list, this.orphans);
     this.rows = new Rows(this.list, (tracker) => new TrackerRow(tracker, model, requests));
   }
 
@@ -23,7 +27,26 @@ export class TrackerPanel {
     this.rows.sync(model.trackers.map(({ tracker }) => tracker));
     this.empty.hidden = model.trackers.length > 0;
     for (const tracker of model.trackers) this.rows.rows.get(tracker.tracker)?.update(tracker, model);
+    this.showOrphans(model);
   }
+
+  /** Bindings outlive their station: one whose sensor is not attached must still be seen and let go. */
+  private showOrphans(model: Model): void {
+    const attached = new Set(model.trackers.flatMap(({ sensors }) => sensors));
+    const orphans = Object.entries(model.scene.document.bindings).filter(([, { sensor }]) => !attached.has(sensor));
+    const key = JSON.stringify(orphans);
+    if (this.orphans.dataset["key"] === key) return;
+    this.orphans.dataset["key"] = key;
+    this.orphans.replaceChildren(
+      ...orphans.map(([id, { sensor, to }]) => bindingLine(id, `${sensor} (not attached) leads ${to.goal ?? "?"}`, this.requests)),
+    );
+  }
+}
+
+function bindingLine(id: string, text: string, requests: Requests): HTMLElement {
+  const remove = button("×", "binding-remove", `Remove ${id}`, () => requests.unbind(id));
+  remove.className = "quiet";
+  return element("div", { className: "line" }, element("span", { className: "grow dim", text }), remove);
 }
 
 class TrackerRow {
@@ -87,14 +110,8 @@ class SensorRow {
     const key = others.map(([id, { to }]) => `${id}>${to.goal}`).join();
     if (this.others.dataset["key"] === key) return;
     this.others.dataset["key"] = key;
-    this.others.replaceChildren(...others.map(([id, binding]) => this.other(id, binding)));
-  }
-
-  /** One sensor may lead several goals; the select shows the first, the rest can be let go here. */
-  private other(id: string, { to }: BindingDocument): HTMLElement {
-    const remove = button("×", "binding-remove", `Remove ${id}`, () => this.requests.unbind(id));
-    remove.className = "quiet";
-    return element("div", { className: "line" }, element("span", { className: "grow dim", text: `also ${to.goal ?? "?"}` }), remove);
+    // One sensor may lead several goals; the select shows the first, the rest can be let go here.
+    this.others.replaceChildren(...others.map(([id, { to }]) => bindingLine(id, `also ${to.goal ?? "?"}`, this.requests)));
   }
 
   private choose(sensor: string): void {

@@ -6,8 +6,8 @@ const kHighest = 1000;
 
 export function atText(at: At | undefined): string {
   if (at === undefined) return "?";
-  if (typeof at === "string") return at.replaceAll("_", " ").replace("/", " / ");
-  return `${at.segment.replaceAll("_", " ")} (${at.point.map((value) => value.toFixed(2)).join(", ")})`;
+  if (typeof at === "string") return plain(at).replace("/", " / ");
+  return `${plain(at.segment)} (${at.point.map((value) => value.toFixed(2)).join(", ")})`;
 }
 
 export function errorText(metres: number): string {
@@ -16,10 +16,19 @@ export function errorText(metres: number): string {
 }
 
 export function causesText(causes: GoalPose["causes"]): string {
-  const words = (causes ?? []).map(({ goal, beyond_m }) =>
-    goal !== undefined ? `held by ${goal}` : beyond_m !== undefined ? `${errorText(beyond_m)} beyond reach` : "",
-  );
-  return words.filter(Boolean).join(" · ");
+  const holders = (causes ?? []).flatMap(({ goal }) => (goal === undefined ? [] : [goalName(goal)]));
+  const beyond = (causes ?? []).flatMap(({ beyond_m }) => (beyond_m === undefined ? [] : [`${errorText(beyond_m)} beyond reach`]));
+  return [...(holders.length > 0 ? [`held by ${holders.join(", ")}`] : []), ...beyond].join(" · ");
+}
+
+/** A goal made without a name is called FIGURE.SEGMENT.KIND: its segment says as much. */
+export function goalName(id: string): string {
+  const parts = id.split(".");
+  return plain(parts.length === 3 ? (parts[1] ?? id) : id);
+}
+
+function plain(name: string): string {
+  return name.replaceAll("_", " ");
 }
 
 /** The slider runs over the decades from 0.1 to 1000; two digits are as fine as a hand sets it. */
@@ -34,4 +43,9 @@ export function sliderFromWeight(weight: number): number {
 
 export function weightText(weight: number): string {
   return String(Number(weight.toPrecision(3)));
+}
+
+/** What is less than a micrometre's worth is nothing to the eye. */
+export function costText(cost: number): string {
+  return cost < 1e-6 ? "0" : String(Number(cost.toPrecision(3)));
 }

@@ -38,7 +38,7 @@ export class Streams {
   /** Called after drawing: a hidden page draws nothing, acks nothing, and wakes to the newest pose. */
   ackDrawn(): void {
     for (const [stream, subscription] of this.subscriptions) {
-      if (!subscription.credit || subscription.newestSeq <= subscription.ackedSeq) continue;
+      if (!subscription.credit || subscription.newestSeq === subscription.ackedSeq) continue;
       subscription.ackedSeq = subscription.newestSeq;
       this.rpc.notify("stream.ack", { stream, seq: subscription.newestSeq });
     }
@@ -54,7 +54,8 @@ export class Streams {
     const subscription = this.subscriptions.get(stream);
     if (!subscription) return;
     if (method === "stream.frame") {
-      subscription.newestSeq = Math.max(subscription.newestSeq, seq ?? -1);
+      // The newest, not the greatest: a subscription made anew may count from the start again.
+      subscription.newestSeq = seq ?? -1;
       subscription.reader.frame(data);
     } else if (method === "stream.lost") {
       subscription.reader.lost(dropped ?? 0);

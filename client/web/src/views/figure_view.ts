@@ -94,13 +94,13 @@ function buildShape(shape: Shape, material: MeshLambertMaterial): Mesh {
     return at(new Mesh(new BoxGeometry(2 * x, 2 * y, 2 * z), material), shape.center);
   }
   if (shape.kind === "ellipsoid") {
-    const mesh = at(new Mesh(new SphereGeometry(1, 32, 20), material), shape.center);
+    const mesh = at(new Mesh(new SphereGeometry(1, 28, 16), material), shape.center);
     mesh.scale.set(...shape.radii);
     return mesh;
   }
   const from = new Vector3(...shape.from);
   const along = new Vector3(...shape.to).sub(from);
-  const mesh = new Mesh(new CapsuleGeometry(shape.radius, along.length(), 8, 24), material);
+  const mesh = new Mesh(new CapsuleGeometry(shape.radius, along.length(), 5, 16), material);
   mesh.position.copy(from).addScaledVector(along, 0.5);
   mesh.quaternion.copy(new Quaternion().setFromUnitVectors(new Vector3(0, 1, 0), along.normalize()));
   return mesh;

@@ -1,0 +1,147 @@
+// Figures and scenes as text, and patches between texts.
+#include <fstream>
+#include <iterator>
+#include <random>
+
+#include "server/scene/scene.h"
+#include "server/solver/tempus.h"
+#include "tests/proto/proto_fixture.h"
+
+namespace posed::proto {
+namespace {
+
+SceneDocument rich_scene() {
+  SceneDocument scene;
+  FigureEntry body;
+  body.template_name = "tempus";
+  body.stature = 1.0 / 3.0;
+  body.q = {0.1, 1e-17, -1.0 / 3.0};
+  body.label = "Ana";
+  body.user = R"({"z":1,"a":[2]})";
+  scene.figures["body"] = body;
+  FigureEntry own;
+  own.document = *tempus(1.8);
+  scene.figures["own"] = own;
+  Goal goal;
+  goal.figure = "body";
+  goal.at = {"right_hand", Vec3(0.1, 0.2, 0.3), ""};
+  goal.position = {1.0 / 3.0, 2e-8, -5};
+  goal.weight = 0.1;
+  goal.tolerance = 0.7;
+  goal.enabled = false;
+  goal.user = "null";
+  scene.goals["g1"] = goal;
+  Binding binding;
+  binding.sensor = "liberty:2";
+  binding.goal = "g1";
+  binding.axes = {false, true, false};
+  binding.mode = Binding::Mode::relative;
+  binding.scale = -0.1;
+  scene.bindings["b1"] = binding;
+  return scene;
+}
+
+TEST(Documents, AFigureComesBackToTheLastDigit) {
+  std::mt19937 random{11};
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 20; ++i) {
+    FigureDocument figure = *tempus(1.0 + 0.05 * i);
+    for (Segment& s : figure.segments) {
+      s.touch_point = {normal(random), 1e-9 * normal(random), 1e9 * normal(random)};
+      s.joint.parent_from_joint.rotation =
+          glm::normalize(Quat(normal(random), normal(random), normal(random), normal(random)));
+      s.mass = std::abs(normal(random));
+    }
+    const std::string text = encode_figure(figure);
+    const Result<FigureDocument> back = decode_figure(text);
+    ASSERT_TRUE(back) << back.error().message << back.error().path;
+    EXPECT_EQ(encode_figure(*back), text);
+    for (std::size_t s = 0; s < figure.segments.size(); ++s) {
+      EXPECT_EQ(back->segments[s].touch_point, figure.segments[s].touch_point);
+      EXPECT_EQ(back->segments[s].mass, figure.segments[s].mass);
+      EXPECT_EQ(back->segments[s].joint.limits.size(), figure.segments[s].joint.limits.size());
+      EXPECT_EQ(back->segments[s].joint.bend_axis, figure.segments[s].joint.bend_axis);
+    }
+    EXPECT_EQ(back->aliases, figure.aliases);
+    EXPECT_EQ(back->mirror, figure.mirror);
+    EXPECT_EQ(back->sites.size(), figure.sites.size());
+  }
+}
+
+TEST(Documents, ASceneComesBackToTheLastDigit) {
+  const SceneDocument scene = rich_scene();
+  const std::string text = encode_scene(scene);
+  const Result<SceneDocument> back = decode_scene(text);
+  ASSERT_TRUE(back) << back.error().message << back.error().path;
+  EXPECT_EQ(encode_scene(*back), text);
+  EXPECT_EQ(back->figures.at("body").q, scene.figures.at("body").q);
+  EXPECT_EQ(back->figures.at("body").user, scene.figures.at("body").user);
+  EXPECT_EQ(back->goals.at("g1").position, scene.goals.at("g1").position);
+  EXPECT_EQ(back->goals.at("g1").at, scene.goals.at("g1").at);
+  EXPECT_FALSE(back->goals.at("g1").enabled);
+  EXPECT_EQ(back->goals.at("g1").user, "null");
+  EXPECT_FALSE(back->bindings.at("b1").axes.x);
+  EXPECT_EQ(back->bindings.at("b1").scale, -0.1);
+  // Set out for reading it is the same document.
+  EXPECT_EQ(encode_scene(*decode_scene(encode_scene(scene, 2))), text);
+}
+
+TEST(Documents, TheKeysAreTheIds) {
+  const Result<SceneDocument> scene = decode_scene(encode_scene(rich_scene()));
+  EXPECT_EQ(scene->figures.at("own").id, "own");
+  EXPECT_EQ(scene->goals.at("g1").id, "g1");
+  EXPECT_EQ(scene->bindings.at("b1").id, "b1");
+}
+
+TEST(Documents, WhatIsWrongIsToldWithItsPath) {
+  const std::string good = encode_scene(rich_scene());
+  const auto broken = [&](const char* patch, const char* code, const char* path) {
+    const Result<SceneDocument> scene = decode_scene(json::parse(good).patch(json::parse(patch)).dump());
+    ASSERT_FALSE(scene) << patch;
+    EXPECT_EQ(scene.error().code, code) << scene.error().message;
+    EXPECT_EQ(scene.error().path, path) << scene.error().message;
+  };
+  broken(R"([{"op":"replace","path":"/format","value":"posed.scene/2"}])", "bad_scene", "/format");
+  broken(R"([{"op":"remove","path":"/goals"}])", "bad_scene", "");
+  broken(R"([{"op":"add","path":"/extra","value":1}])", "bad_scene", "/extra");
+  broken(R"([{"op":"replace","path":"/goals/g1/weight","value":"x"}])", "bad_scene", "/goals/g1/weight");
+  broken(R"([{"op":"add","path":"/goals/g1/priority","value":1}])", "not_available", "/goals/g1/priority");
+  broken(R"([{"op":"add","path":"/objects/chair","value":{}}])", "not_available", "/objects");
+  broken(R"([{"op":"replace","path":"/figures/own/document/segments/3/joint/type","value":"knot"}])", "bad_scene",
+         "/figures/own/document/segments/3/joint/type");
+  EXPECT_EQ(decode_scene("{").error().code, "parse_error");
+  EXPECT_EQ(decode_figure("[]").error().code, "bad_figure");
+  EXPECT_EQ(decode_figure(R"({"format":"posed.figure/2","root":"a","segments":[]})").error().path, "/format");
+}
+
+TEST(Documents, PatchesLeadFromOneToTheOther) {
+  std::vector<std::string> texts{"{}", encode_scene({}), encode_scene(rich_scene())};
+  SceneDocument scene = rich_scene();
+  scene.goals["g2"] = scene.goals["g1"];
+  scene.goals["g2"].label = "a/b~c";
+  texts.push_back(encode_scene(scene));
+  scene.goals.erase("g1");
+  scene.bindings["b1"].goal = "g2";
+  scene.figures["body"].q = {0.2};
+  texts.push_back(encode_scene(scene));
+  scene.figures.erase("own");
+  scene.figures["body"].label.clear();
+  texts.push_back(encode_scene(scene));
+  for (const std::string& before : texts) {
+    for (const std::string& after : texts) {
+      const json patch = json::parse(diff(before, after));
+      EXPECT_EQ(json::parse(before).patch(patch), json::parse(after)) << patch;
+      EXPECT_EQ(patch.empty(), json::parse(before) == json::parse(after));
+    }
+  }
+}
+
+TEST(Documents, APatchIsSmall) {
+  SceneDocument scene = rich_scene();
+  const std::string before = encode_scene(scene);
+  scene.goals["g1"].position.x = 0.5;
+  EXPECT_EQ(diff(before, encode_scene(scene)), R"([{"op":"replace","path":"/goals/g1/position/0","value":0.5}])");
+}
+
+}  // namespace
+}  // namespace posed::proto

@@ -1,0 +1,220 @@
+#include "tests/support/liberty_emulator.h"
+
+#include <cctype>
+#include <cmath>
+#include <cstdlib>
+
+#include "tests/support/liberty_pack.h"
+
+namespace posed::test {
+namespace {
+
+constexpr std::size_t kFifo = 2300;
+constexpr int kMaxStation = 16;
+
+enum ErrorCode { kInvalidCommand = 1, kInvalidStation = 2, kInvalidParameter = 3, kTooFew = 4, kTooMany = 5 };
+
+std::vector<std::string> split(const std::string& text) {
+  std::vector<std::string> fields(1);
+  for (const char c : text) {
+    if (c == ',') {
+      fields.emplace_back();
+    } else if (c != ' ') {
+      fields.back() += c;
+    }
+  }
+  return fields;
+}
+
+bool matches_station(const std::string& field, int station) {
+  return field == "*" || std::atoi(field.c_str()) == station;
+}
+
+bool valid_station(const std::string& field) {
+  return field == "*" || (std::atoi(field.c_str()) >= 1 && std::atoi(field.c_str()) <= kMaxStation);
+}
+
+}  // namespace
+
+LibertyEmulator::LibertyEmulator(int stations) {
+  for (int station = 1; station <= stations; ++station) plug_sensor(station);
+}
+
+void LibertyEmulator::write(std::string_view text) {
+  write(std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+}
+
+void LibertyEmulator::write(std::span<const std::uint8_t> bytes) {
+  for (const std::uint8_t byte : bytes) {
+    if (deaf_ || byte == '\n') continue;
+    if (line_.empty() && (byte == 'P' || byte == 'p')) {
+      continuous_ = false;
+      commands_.emplace_back("P");
+      if (!frozen_) output_.push_back({cycle('P'), true});
+    } else if (byte == '\r') {
+      execute(line_);
+      line_.clear();
+    } else {
+      line_ += static_cast<char>(byte);
+    }
+  }
+}
+
+void LibertyEmulator::tick() {
+  if (frozen_) return;
+  ++count_;
+  if (!continuous_) return;
+  Bytes bytes = cycle('C');
+  if (bytes.empty()) return;
+  std::size_t waiting = 0;
+  if (!buffering_) std::erase_if(output_, [](const Output& output) { return output.cycle; });
+  for (const Output& output : output_) waiting += output.bytes.size();
+  if (waiting + bytes.size() <= kFifo) output_.push_back({std::move(bytes), true});
+}
+
+std::deque<std::vector<std::uint8_t>> LibertyEmulator::take() {
+  std::deque<std::vector<std::uint8_t>> taken;
+  for (Output& output : output_) taken.push_back(std::move(output.bytes));
+  output_.clear();
+  return taken;
+}
+
+void LibertyEmulator::execute(const std::string& line) {
+  if (line.empty()) return complain('\r', kInvalidCommand, line);
+  const char command = static_cast<char>(std::toupper(static_cast<unsigned char>(line[0])));
+  // The one command of two letters.
+  if (command == '@') {
+    if (line.size() == 3 && std::toupper(static_cast<unsigned char>(line[1])) == 'B')
+      return set('@', {line.substr(2)}, line);
+    return complain('@', kInvalidCommand, line);
+  }
+  const std::string rest = line.substr(1);
+  if (echo_) answer(command, 0, Bytes(line.begin(), line.end()), line);
+  constexpr std::string_view kKnown = "CFUORHQ\x05\x12\x15";
+  if (kKnown.find(command) == std::string_view::npos) return complain(command, kInvalidCommand, line);
+  if (command == 'C') {
+    commands_.push_back(line);
+    continuous_ = true;
+  } else if (rest.empty() || ((command == 'O' || command == 'H') && rest.find(',') == std::string::npos)) {
+    query(command, std::atoi(rest.c_str()));
+  } else {
+    set(command, split(rest), line);
+  }
+}
+
+void LibertyEmulator::set(char command, const Arguments& arguments, const std::string& line) {
+  const int value = std::atoi(arguments[0].c_str());
+  const bool flag = arguments.size() == 1 && (arguments[0] == "0" || arguments[0] == "1");
+  if (command == 'O') return set_list(arguments, line);
+  if (command == 0x15) return set_stations(arguments, line);
+  if (command == 'H') {
+    if (!valid_station(arguments[0])) return complain(command, kInvalidStation, line);
+    if (arguments.size() != 4) return complain(command, arguments.size() < 4 ? kTooFew : kTooMany, line);
+    for (auto& [station, sensor] : sensors_) {
+      for (std::size_t i = 0; i < 3 && matches_station(arguments[0], station); ++i) {
+        sensor.hemisphere[i] = std::atof(arguments[i + 1].c_str());
+      }
+    }
+  } else if (command == 'R') {
+    if (value != 3 && value != 4) return complain(command, kInvalidParameter, line);
+    rate_ = value;
+  } else if (command == 'Q') {
+    if (value < 0 || value > 2) return complain(command, kInvalidParameter, line);
+    count_ = 0;
+  } else if (command != 0x12) {
+    if (!flag) return complain(command, kInvalidParameter, line);
+    if (command == 'F') binary_ = value == 1;
+    if (command == 'U') centimetres_ = value == 1;
+    if (command == 0x05) echo_ = value == 1;
+    if (command == '@') buffering_ = value == 1;
+  }
+  commands_.push_back(line);
+}
+
+void LibertyEmulator::set_list(const Arguments& arguments, const std::string& line) {
+  if (!valid_station(arguments[0])) return complain('O', kInvalidStation, line);
+  if (arguments.size() > 21) return complain('O', kTooMany, line);
+  std::vector<int> list;
+  for (std::size_t i = 1; i < arguments.size(); ++i) {
+    const int item = std::atoi(arguments[i].c_str());
+    if (arguments[i].empty() || item < 0 || item > 12) return complain('O', kInvalidParameter, line);
+    list.push_back(item);
+  }
+  for (int station = 1; station <= kMaxStation; ++station) {
+    if (matches_station(arguments[0], station)) sensors_[station].list = list;
+  }
+  commands_.push_back(line);
+}
+
+void LibertyEmulator::set_stations(const Arguments& arguments, const std::string& line) {
+  const int station = std::atoi(arguments[0].c_str());
+  if (station > kMaxStation) return complain(0x15, kInvalidStation, line);
+  commands_.push_back(line);
+  if (arguments.size() == 1) return query(0x15, station);
+  if (station != 0) {
+    sensors_[station].active = arguments[1] == "1";
+    return;
+  }
+  const unsigned long map = std::strtoul(arguments[1].c_str(), nullptr, 16);
+  for (int i = 0; i < kMaxStation; ++i) sensors_[i + 1].active = (map >> i & 1) != 0;
+}
+
+void LibertyEmulator::query(char command, int station) {
+  Bytes body;
+  std::string text;
+  const auto number = [&](std::uint32_t v) {
+    put_u32(body, v);
+    text = std::to_string(v);
+  };
+  if (command == 'F') number(binary_);
+  if (command == 'U') number(centimetres_);
+  if (command == 'R') number(static_cast<std::uint32_t>(rate_));
+  if (command == 0x05) number(echo_);
+  if (command == 0x15) {
+    std::uint32_t detected = 0, active = 0;
+    for (const auto& [n, sensor] : sensors_) {
+      detected |= static_cast<std::uint32_t>(sensor.detected) << (n - 1);
+      active |= static_cast<std::uint32_t>(sensor.active) << (n - 1);
+    }
+    put_u32(body, detected << 16 | active);  // a 32-bit number: detected in its upper half
+    text = format("%04.0f", 0);
+    char hex[12];
+    std::snprintf(hex, sizeof hex, "%04X%04X", detected, active);
+    text = hex;
+  }
+  if (command == 'H') {
+    for (const double v : sensors_[station].hemisphere) {
+      put_f32(body, v);
+      text += format("% 7.3f", v);
+    }
+  }
+  if (command == 'O') {
+    const std::vector<int>& list = sensors_[station].list;
+    for (std::size_t i = 0; i < 20; ++i) put_u32(body, i < list.size() ? static_cast<std::uint32_t>(list[i]) : ~0u);
+    for (const int item : list) text += std::to_string(item) + " ";
+  }
+  answer(command, station, body, text);
+}
+
+void LibertyEmulator::answer(char command, int station, const Bytes& body, const std::string& text) {
+  if (binary_) {
+    output_.push_back({liberty_frame(station, static_cast<std::uint8_t>(command), 0, body), false});
+    return;
+  }
+  // Two digits of the station, the letter (lower case for control commands), the error, a blank.
+  const char letter = command < 0x20 ? static_cast<char>(command + 0x60) : command;
+  Bytes line;
+  put_text(line, format("%02.0f", station) + letter + "  " + text + "\r\n");
+  output_.push_back({std::move(line), false});
+}
+
+void LibertyEmulator::complain(char command, int error, const std::string& line) {
+  static const char* const kNames[] = {
+      "", "Invalid Command", "Invalid Station", "Invalid Parameter", "Too Few Parameters", "Too Many Parameters"};
+  Bytes text;
+  put_text(text, std::string("*** ") + kNames[error] + " ***" + line + "\r\n");
+  if (binary_) text = liberty_frame(0, static_cast<std::uint8_t>(command), static_cast<std::uint8_t>(error), text);
+  output_.push_back({std::move(text), false});
+}
+
+}  // namespace posed::test

@@ -1,0 +1,175 @@
+// The records of LibertyEmulator: what one measurement cycle says, in binary and in ASCII.
+#include <cmath>
+#include <numbers>
+
+#include "tests/support/liberty_emulator.h"
+#include "tests/support/liberty_pack.h"
+
+namespace posed::test {
+namespace {
+
+struct Values {
+  LibertyPose pose;  // in the units that are set
+  double q[4];       // scalar first
+  double m[9];       // rows: the sensor's axes, in columns, in the source frame
+  std::uint32_t count, milliseconds;
+  int distortion;
+};
+
+// The rotation of azimuth, elevation and roll (manual, appendix A), by half angles.
+void rotate(Values& v) {
+  const double to_half = std::numbers::pi / 360.0;
+  const double ca = std::cos(v.pose.azimuth * to_half), sa = std::sin(v.pose.azimuth * to_half);
+  const double ce = std::cos(v.pose.elevation * to_half), se = std::sin(v.pose.elevation * to_half);
+  const double cr = std::cos(v.pose.roll * to_half), sr = std::sin(v.pose.roll * to_half);
+  v.q[0] = ca * ce * cr + sa * se * sr;
+  v.q[1] = ca * ce * sr - sa * se * cr;
+  v.q[2] = ca * se * cr + sa * ce * sr;
+  v.q[3] = sa * ce * cr - ca * se * sr;
+  const double a = v.pose.azimuth * 2 * to_half, e = v.pose.elevation * 2 * to_half, r = v.pose.roll * 2 * to_half;
+  const double CA = std::cos(a), SA = std::sin(a), CE = std::cos(e), SE = std::sin(e), CR = std::cos(r),
+               SR = std::sin(r);
+  const double rows[9] = {CA * CE,
+                          CA * SE * SR - SA * CR,
+                          CA * SE * CR + SA * SR,
+                          SA * CE,
+                          CA * CR + SA * SE * SR,
+                          SA * SE * CR - CA * SR,
+                          -SE,
+                          CE * SR,
+                          CE * CR};
+  for (int i = 0; i < 9; ++i) v.m[i] = rows[i];
+}
+
+void put_item(Bytes& to, int item, const Values& v) {
+  const LibertyPose& p = v.pose;
+  switch (item) {
+    case 0:
+      put_text(to, " ");
+      break;
+    case 1:
+      put_text(to, "\r\n");
+      break;
+    case 2:
+    case 3:
+      for (const double value : {p.x, p.y, p.z}) put_f32(to, value);
+      break;
+    case 4:
+    case 5:
+      for (const double value : {p.azimuth, p.elevation, p.roll}) put_f32(to, value);
+      break;
+    case 6:
+      for (const double value : v.m) put_f32(to, value);
+      break;
+    case 7:
+      for (const double value : v.q) put_f32(to, value);
+      break;
+    case 8:
+      put_u32(to, v.milliseconds);
+      break;
+    case 9:
+      put_u32(to, v.count);
+      break;
+    case 11:
+      put_u32(to, static_cast<std::uint32_t>(v.distortion));
+      break;
+    default:
+      put_u32(to, 0);
+      break;  // stylus, external sync
+  }
+}
+
+void put_item_text(Bytes& to, int item, const Values& v) {
+  const LibertyPose& p = v.pose;
+  switch (item) {
+    case 0:
+      put_text(to, " ");
+      break;
+    case 1:
+      put_text(to, "\r\n");
+      break;
+    case 2:
+      for (const double value : {p.x, p.y, p.z}) put_text(to, format("%8.3f ", value));
+      break;
+    case 3:
+      for (const double value : {p.x, p.y, p.z}) put_text(to, format("% .6E ", value));
+      break;
+    case 4:
+      for (const double value : {p.azimuth, p.elevation, p.roll}) put_text(to, format("%8.3f ", value));
+      break;
+    case 5:
+      for (const double value : {p.azimuth, p.elevation, p.roll}) put_text(to, format("% .6E ", value));
+      break;
+    case 6:
+      for (int i = 0; i < 9; ++i) put_text(to, format("% .5f ", v.m[i]) + (i % 3 == 2 ? "\r\n" : ""));
+      break;
+    case 7:
+      for (const double value : v.q) put_text(to, format("% .5f ", value));
+      break;
+    case 8:
+      put_text(to, std::to_string(v.milliseconds));
+      break;
+    case 9:
+      put_text(to, std::to_string(v.count));
+      break;
+    case 11:
+      put_text(to, std::to_string(v.distortion));
+      break;
+    default:
+      put_text(to, "0");
+      break;
+  }
+}
+
+}  // namespace
+
+LibertyPose LibertyEmulator::measured(int station) {
+  const SensorState& sensor = sensors_[station];
+  LibertyPose pose = motion_ ? motion_(station, count_) : sensor.pose;
+  const auto& h = sensor.hemisphere;
+  const bool tracking = h[0] == 0 && h[1] == 0 && h[2] == 0;
+  // The field looks the same from both sides: beyond the boundary the position comes out mirrored.
+  if (!tracking && pose.x * h[0] + pose.y * h[1] + pose.z * h[2] < 0) {
+    pose.x = -pose.x;
+    pose.y = -pose.y;
+    pose.z = -pose.z;
+  }
+  if (centimetres_) {
+    pose.x *= 2.54;
+    pose.y *= 2.54;
+    pose.z *= 2.54;
+  }
+  return pose;
+}
+
+std::vector<std::uint8_t> LibertyEmulator::record(int station, char command) {
+  const SensorState& sensor = sensors_[station];
+  Values v{};
+  v.pose = measured(station);
+  rotate(v);
+  v.count = count_;
+  v.milliseconds = static_cast<std::uint32_t>(std::uint64_t{count_} * 1000 / (rate_ == 4 ? 240 : 120));
+  v.distortion = sensor.distortion;
+  Bytes body;
+  for (const int item : sensor.list) binary_ ? put_item(body, item, v) : put_item_text(body, item, v);
+  if (binary_) {
+    return liberty_frame(station, static_cast<std::uint8_t>(command), static_cast<std::uint8_t>(sensor.letter), body);
+  }
+  // Data records have no command letter: two digits of the station, the error, a blank.
+  Bytes line;
+  put_text(line, format("%02.0f", station) + (sensor.letter ? sensor.letter : ' ') + " ");
+  line.insert(line.end(), body.begin(), body.end());
+  return line;
+}
+
+std::vector<std::uint8_t> LibertyEmulator::cycle(char command) {
+  Bytes bytes;
+  for (const auto& [station, sensor] : sensors_) {
+    if (!sensor.detected || !sensor.active) continue;
+    const Bytes one = record(station, command);
+    bytes.insert(bytes.end(), one.begin(), one.end());
+  }
+  return bytes;
+}
+
+}  // namespace posed::test
