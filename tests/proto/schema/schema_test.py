@@ -26,11 +26,28 @@ def read(path):
 
 
 SCHEMAS = {name: read(TOP / f"proto/schema/{name}.schema.json") for name in ("figure", "scene")}
-STORE = {schema["$id"]: schema for schema in SCHEMAS.values()}
+
+
+def bundled(node, inside=""):
+    """The scene's schema with the figure's as one of its $defs: versions of jsonschema resolve files differently."""
+    if isinstance(node, list):
+        return [bundled(item, inside) for item in node]
+    if not isinstance(node, dict):
+        return node
+    node = {key: bundled(value, inside) for key, value in node.items() if not (inside and key == "$id")}
+    ref = node.get("$ref")
+    if isinstance(ref, str):
+        node["$ref"] = (ref.replace("figure.schema.json#", "#/$defs/figure_document")
+                        .replace("figure.schema.json", "#/$defs/figure_document") if not inside
+                        else ref.replace("#", inside))
+    return node
+
+
+BUNDLE = bundled(SCHEMAS["scene"])
+BUNDLE["$defs"]["figure_document"] = bundled(SCHEMAS["figure"], "#/$defs/figure_document")
 VALIDATORS = {
-    name: jsonschema.Draft202012Validator(
-        schema, resolver=jsonschema.RefResolver(schema["$id"], schema, store=STORE))
-    for name, schema in SCHEMAS.items()
+    "figure": jsonschema.Draft202012Validator(SCHEMAS["figure"]),
+    "scene": jsonschema.Draft202012Validator(BUNDLE),
 }
 
 
