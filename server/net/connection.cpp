@@ -4,10 +4,8 @@
 #include <sys/socket.h>
 
 #include <algorithm>
-#include <array>
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/post.hpp>
-#include <cerrno>
 
 #include "common/log.h"
 #include "proto/codec.h"
@@ -23,25 +21,10 @@ namespace {
 namespace asio = boost::asio;
 using boost::system::error_code;
 
-constexpr std::size_t kGather = 16;            // lines in one write
 constexpr int kReadsInARow = 4;                // then others have their turn
 constexpr int kUnsentBytes = 16 << 10;         // that the kernel takes from us before they go out to a subscriber
 constexpr std::size_t kBurstBytes = 64 << 10;  // of replies, that may gather before they are sent
 constexpr std::size_t kFirstReply = 64 << 10;  // bytes expected of a reply before any has come
-constexpr std::string_view kNewline = "\n";
-
-std::size_t framed_size(const Outgoing& out) {
-  const std::size_t size = out.bytes->size();
-  switch (out.framing) {
-    case Framing::raw:
-      return size;
-    case Framing::line:
-      return size + kNewline.size();
-    case Framing::text:
-      return size + frame_header(Opcode::text, size).size;
-  }
-  return size;
-}
 
 bool would_block(const error_code& error) {
   return error == asio::error::would_block || error == asio::error::try_again;
@@ -55,6 +38,7 @@ Connection::Connection(Hub& hub, Socket socket, ConnectionId id, std::string add
       id_(id),
       address_(std::move(address)),
       outbox_(hub.options.limits.replies, hub.options.limits.reply_bytes, hub.tally),
+      writer_(hub.tally),
       expected_reply_(kFirstReply) {
   add(hub_.tally.connections);
 }
@@ -170,7 +154,7 @@ void Connection::open(bool websocket) {
 }
 
 void Connection::become(std::unique_ptr<Face> face, std::string_view rest) {
-  retired_ = std::move(face_);
+  retired_.push_back(std::move(face_));
   face_ = std::move(face);
   if (!rest.empty()) face_->take(rest);
 }
@@ -185,6 +169,7 @@ void Connection::part(std::uint16_t close_code, std::optional<Error> last_words,
 // ---- after each event ----
 
 void Connection::update() {
+  retired_.clear();
   for (;;) {
     pump();
     if (closed_ || parting_ || !face_->ready()) break;
@@ -284,59 +269,16 @@ void Connection::arm_read() {
 
 // ---- out ----
 
-bool Connection::fill() {
-  const Nanoseconds now = hub_.clock.now();
-  while (in_flight_.size() < kGather) {
-    auto out = outbox_.next(now);
-    if (!out) break;
-    in_flight_.push_back(std::move(*out));
-    if (in_flight_.back().frame) break;  // what would go after it may be stale by then
-  }
-  return !in_flight_.empty();
-}
-
 void Connection::pump() {
-  while (!closed_ && !write_armed_ && (!in_flight_.empty() || fill())) {
-    std::array<FrameHeader, kGather> headers;
-    std::array<iovec, 2 * kGather> parts;
-    std::size_t count = 0;
-    std::size_t skip = written_;
-    const auto append = [&](const char* data, std::size_t size) {
-      const std::size_t gone = std::min(skip, size);
-      skip -= gone;
-      if (size > gone) parts[count++] = {const_cast<char*>(data + gone), size - gone};
-    };
-    for (std::size_t i = 0; i < in_flight_.size(); ++i) {
-      const Outgoing& out = in_flight_[i];
-      if (out.framing == Framing::text) {
-        headers[i] = frame_header(Opcode::text, out.bytes->size());
-        append(headers[i].bytes.data(), headers[i].size);
-      }
-      append(out.bytes->data(), out.bytes->size());
-      if (out.framing == Framing::line) append(kNewline.data(), kNewline.size());
-    }
-    msghdr message{};
-    message.msg_iov = parts.data();
-    message.msg_iovlen = count;
-    const ssize_t sent = ::sendmsg(socket_.native_handle(), &message, MSG_NOSIGNAL | MSG_DONTWAIT);
-    if (sent < 0 && errno == EINTR) continue;
-    if (sent < 0 && (errno == EAGAIN || errno == EWOULDBLOCK || errno == ENOBUFS)) return arm_write();
-    if (sent < 0) return close("the peer is gone");
-    advance(static_cast<std::size_t>(sent));
+  if (closed_ || write_armed_) return;
+  switch (writer_.write(socket_.native_handle(), outbox_, hub_.clock.now())) {
+    case Writer::State::done:
+      return;
+    case Writer::State::blocked:
+      return arm_write();
+    case Writer::State::broken:
+      return close("the peer is gone");
   }
-}
-
-void Connection::advance(std::size_t written) {
-  add(hub_.tally.bytes_out, written);
-  written_ += written;
-  std::size_t done = 0;
-  for (; done < in_flight_.size(); ++done) {
-    const std::size_t size = framed_size(in_flight_[done]);
-    if (written_ < size) break;
-    written_ -= size;
-    if (in_flight_[done].frame) add(hub_.tally.frames);
-  }
-  in_flight_.erase(in_flight_.begin(), in_flight_.begin() + static_cast<std::ptrdiff_t>(done));
 }
 
 void Connection::arm_write() {

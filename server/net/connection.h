@@ -13,6 +13,7 @@
 #include "server/net/face.h"
 #include "server/net/hub.h"
 #include "server/net/outbox.h"
+#include "server/net/writer.h"
 
 namespace posed::net {
 
@@ -44,7 +45,7 @@ class Connection final : public Link, public std::enable_shared_from_this<Connec
   void clear_dirty() { dirty_ = false; }
 
   bool room() const override;
-  bool idle() const override { return in_flight_.empty() && outbox_.replies() == 0; }
+  bool idle() const override { return writer_.idle() && outbox_.replies() == 0; }
   void hand_up(std::string_view line) override;
   void send(SharedLine bytes) override { outbox_.send(std::move(bytes), Framing::raw); }
   void open(bool websocket) override;
@@ -66,8 +67,6 @@ class Connection final : public Link, public std::enable_shared_from_this<Connec
   void on_readable();
   void on_end();
   void pump();
-  bool fill();
-  void advance(std::size_t written);
   void say_goodbye();
   void close_if_done();
   void arm_read();
@@ -79,10 +78,10 @@ class Connection final : public Link, public std::enable_shared_from_this<Connec
   const ConnectionId id_;
   const std::string address_;
   Outbox outbox_;
-  std::unique_ptr<Face> face_, retired_;  // retired: it may still be on the stack
+  Writer writer_;
+  std::unique_ptr<Face> face_;
+  std::vector<std::unique_ptr<Face>> retired_;  // may still be on the stack
   std::optional<Parting> parting_;
-  std::vector<Outgoing> in_flight_;  // begun, must be finished before anything newer
-  std::size_t written_ = 0;          // bytes of its first one that are gone
   std::optional<boost::asio::steady_timer> rate_timer_;
   Nanoseconds receive_t_ns_ = 0;
   Nanoseconds rate_due_ = 0;    // what the rate timer waits for

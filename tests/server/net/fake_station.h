@@ -31,9 +31,12 @@ inline bool eventually(const std::function<bool()>& condition) {
   return true;
 }
 
+// Patient: no test shall fail because the machine is busy.
 inline Options options_on_a_free_port() {
   Options options;
   options.port = 0;
+  options.limits.http_request = options.limits.http_reply = options.limits.farewell = options.limits.stop =
+      60'000'000'000;
   return options;
 }
 

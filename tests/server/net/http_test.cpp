@@ -29,7 +29,6 @@ class Http : public ::testing::Test {
     std::ofstream(folder / "big.js") << std::string(3'000'000, 'x');
     Options options = options_on_a_free_port();
     options.viewer = folder;
-    options.limits.http_request = 300'000'000;
     station.emplace(std::move(options));
   }
   ~Http() override { fs::remove_all(folder); }
@@ -149,13 +148,17 @@ TEST_F(Http, NonsenseIsRefused) {
 }
 
 TEST_F(Http, WhoDawdlesOverARequestIsClosed) {
-  RawPeer one(port()), two(port()), line(port());
+  Options options = options_on_a_free_port();
+  options.limits.http_request = 100'000'000;
+  FakeStation hasty(std::move(options));
+  const std::uint16_t at = hasty.server.port();
+  RawPeer one(at), two(at), line(at);
   one.send("G");
   two.send("GET / HTTP/1.1\r\n");
   line.send("{");
   EXPECT_EQ(one.rest(), "");
   EXPECT_EQ(two.rest(), "");
-  EXPECT_EQ(station->open_peers().size(), 1u) << "a line may take its time";
+  EXPECT_EQ(hasty.open_peers().size(), 1u) << "a line may take its time";
 }
 
 class Websocket : public Http {

@@ -1,0 +1,89 @@
+#include "server/net/writer.h"
+
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <string_view>
+
+#include "server/net/websocket_frames.h"
+
+namespace posed::net {
+namespace {
+
+constexpr std::size_t kGather = 16;  // lines in one write
+constexpr std::string_view kNewline = "\n";
+
+std::size_t framed_size(const Outgoing& out) {
+  const std::size_t size = out.bytes->size();
+  if (out.framing == Framing::line) return size + kNewline.size();
+  return out.framing == Framing::text ? size + frame_header(Opcode::text, size).size : size;
+}
+
+}  // namespace
+
+Writer::State Writer::write(int socket, Outbox& outbox, Nanoseconds now) {
+  while (!begun_.empty() || fill(outbox, now)) {
+    const long sent = send_once(socket);
+    if (sent >= 0) {
+      advance(static_cast<std::size_t>(sent));
+    } else if (errno == EAGAIN || errno == EWOULDBLOCK || errno == ENOBUFS) {
+      return State::blocked;
+    } else if (errno != EINTR) {
+      return State::broken;
+    }
+  }
+  return State::done;
+}
+
+bool Writer::fill(Outbox& outbox, Nanoseconds now) {
+  while (begun_.size() < kGather) {
+    auto out = outbox.next(now);
+    if (!out) break;
+    begun_.push_back(std::move(*out));
+    if (begun_.back().frame) break;  // what would go after it may be stale by then
+  }
+  return !begun_.empty();
+}
+
+// The shared line goes out as it is, with what frames it beside it: nothing is copied.
+long Writer::send_once(int socket) const {
+  std::array<FrameHeader, kGather> headers;
+  std::array<iovec, 2 * kGather> parts;
+  std::size_t count = 0;
+  std::size_t skip = written_;
+  const auto append = [&](const char* data, std::size_t size) {
+    const std::size_t gone = std::min(skip, size);
+    skip -= gone;
+    if (size > gone) parts[count++] = {const_cast<char*>(data + gone), size - gone};
+  };
+  for (std::size_t i = 0; i < begun_.size(); ++i) {
+    const Outgoing& out = begun_[i];
+    if (out.framing == Framing::text) {
+      headers[i] = frame_header(Opcode::text, out.bytes->size());
+      append(headers[i].bytes.data(), headers[i].size);
+    }
+    append(out.bytes->data(), out.bytes->size());
+    if (out.framing == Framing::line) append(kNewline.data(), kNewline.size());
+  }
+  msghdr message{};
+  message.msg_iov = parts.data();
+  message.msg_iovlen = count;
+  return ::sendmsg(socket, &message, MSG_NOSIGNAL | MSG_DONTWAIT);
+}
+
+void Writer::advance(std::size_t bytes) {
+  add(tally_.bytes_out, bytes);
+  written_ += bytes;
+  std::size_t done = 0;
+  for (; done < begun_.size(); ++done) {
+    const std::size_t size = framed_size(begun_[done]);
+    if (written_ < size) break;
+    written_ -= size;
+    if (begun_[done].frame) add(tally_.frames);
+  }
+  begun_.erase(begun_.begin(), begun_.begin() + static_cast<std::ptrdiff_t>(done));
+}
+
+}  // namespace posed::net
