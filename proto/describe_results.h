@@ -27,7 +27,8 @@ void describe(V& v, HelloResult& m) {
   if constexpr (!V::kReads) v.constant("axes", Json{{"up", "z"}, {"forward", "x"}, {"handed", "right"}});
   Clocks clocks{m.t_ns, m.utc_ns};
   v.required("clock", clocks);
-  if constexpr (!V::kReads) v.constant("limits", Json{{"line_bytes", kMaxLineBytes}, {"depth", kMaxDepth}});
+  if constexpr (!V::kReads)
+    v.constant("limits", Json{{"line_bytes", kMaxLineBytes}, {"depth", kMaxDepth}, {"batch", kMaxBatch}});
 }
 
 template <class V>

@@ -184,6 +184,7 @@ void Reader::verbatim(const char* key, std::string& text) {
   const auto deepest = [](const auto& self, const Json& j) -> int {
     int depth = 0;
     if (j.is_structured()) {
+      depth = 1;
       for (const Json& item : j) depth = std::max(depth, self(self, item) + 1);
     }
     return depth;
@@ -220,29 +221,6 @@ void Reader::finish() {
     return context_.fail("unknown_field", "there is no field \"" + key.substr(0, 64) + "\" here",
                          did_you_mean(key, known_));
   }
-}
-
-Result<Json> parse(std::string_view text) {
-  int depth = 0;
-  bool in_string = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (in_string) {
-      if (c == '\\')
-        ++i;
-      else if (c == '"')
-        in_string = false;
-    } else if (c == '"') {
-      in_string = true;
-    } else if (c == '[' || c == '{') {
-      if (++depth > kMaxDepth) return Error{"parse_error", "the text nests deeper than 64", "", "flatten it"};
-    } else if (c == ']' || c == '}') {
-      --depth;
-    }
-  }
-  Json json = Json::parse(text, nullptr, false);
-  if (json.is_discarded()) return Error{"parse_error", "the line is not JSON", "", "one JSON object a line, in UTF-8"};
-  return json;
 }
 
 }  // namespace posed::proto

@@ -138,8 +138,8 @@ class Reader {
   template <class T>
   void required(const char* key, T& out) {
     if (!optional(key, out)) {
-      context_.fail("missing_field", std::string("the field \"") + key + "\" is missing",
-                    std::string("add \"") + key + "\"");
+      fail_at(key, "missing_field", std::string("the field \"") + key + "\" is missing",
+              std::string("add \"") + key + "\"");
     }
   }
 
@@ -187,7 +187,7 @@ void read(ReadContext& c, const Json& j, T& out) {
   reader.finish();
 }
 
-// Depth is checked before parsing, so that no text can exhaust the stack.
+// No text can exhaust the stack, nor take more than its length (times its logarithm) in time. Errors: "parse_error".
 Result<Json> parse(std::string_view text);
 
 }  // namespace posed::proto

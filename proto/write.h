@@ -45,7 +45,9 @@ Json write(const std::vector<T>& items) {
 template <class T>
 Json write(const std::map<std::string, T>& items) {
   Json j = Json::object();
-  for (const auto& [key, item] : items) j[key] = write(item);
+  // Straight to the end: assigning by key would look for each among all before it.
+  auto& members = j.get_ref<Json::object_t&>();
+  for (const auto& [key, item] : items) members.emplace_back(key, write(item));
   return j;
 }
 

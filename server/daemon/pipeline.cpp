@@ -50,6 +50,10 @@ Pipeline::Pipeline(Loop& station, net::Server& network, Store& disk, Templates s
 
 void Pipeline::on_frame(const Frame& frame) {
   ++frames;
+  TrackerState& tracker = trackers[frame.device];
+  ++tracker.frames;
+  tracker.stations.clear();
+  for (const Sample& sample : frame.samples) tracker.stations.push_back(sample.station);
   publisher.publish_frame(frame);
   if (!scene.follow(frame)) return;
   if (!sample_t_ns_) sample_t_ns_ = frame.t_ns;
@@ -143,7 +147,9 @@ void Pipeline::on_tracker(const std::string& id, const std::string& kind, const 
                              (status.message.empty() ? "" : ": " + status.message);
     status.state == tracker::State::failed ? log_warning(line) : log_info(line);
   }
-  state = {kind, status};
+  state.kind = kind;
+  state.status = status;
+  if (status.state != tracker::State::streaming) state.stations = status.stations;
 }
 
 void Pipeline::on_opened(net::ConnectionId connection, net::Peer peer) {

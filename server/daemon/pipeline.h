@@ -36,6 +36,9 @@ struct Session {
 struct TrackerState {
   std::string kind;
   tracker::Status status;
+  // Counted here, since a status comes only now and then.
+  std::uint64_t frames = 0;
+  std::vector<int> stations;  // of the last frame
 };
 
 class Pipeline {

@@ -96,9 +96,9 @@ void Requests::on(const proto::TrackerList&, Responder responder) {
     entry.state = tracker_state_name(status.state);
     entry.message = status.message;
     entry.rate_hz = status.rate_hz;
-    entry.frames = status.frames;
+    entry.frames = tracker.frames;
     entry.bad_bytes = status.bad_bytes;
-    for (const int station : status.stations) entry.sensors.push_back(sensor_id(id, station));
+    for (const int station : tracker.stations) entry.sensors.push_back(sensor_id(id, station));
   }
   responder.result(result);
 }

@@ -1,4 +1,4 @@
-// SHA-1 (RFC 3174) and base64, as the WebSocket handshake asks for them. Nothing here keeps a secret.
+// SHA-1 and base64 of OpenSSL, as the WebSocket handshake asks for them (RFC 6455, 4.2.2). Nothing here keeps a secret.
 #pragma once
 
 #include <string>

@@ -40,6 +40,35 @@ TEST(DecodeEnvelope, NestsAtMost64Deep) {
             "\"\\" + std::string(200, '['));
 }
 
+TEST(DecodeEnvelope, AKeyStandsOnce) {
+  const BadRequest twice =
+      refused(R"({"jsonrpc":"2.0","id":1,"method":"goal.list","params":{},"method":"goal.clear"})");
+  EXPECT_EQ(twice.error.code, "parse_error");
+  EXPECT_NE(twice.error.message.find("method"), std::string::npos);
+  std::string many = "{";
+  for (int i = 0; i < 100; ++i) many += "\"k" + std::to_string(i) + "\":{},";
+  expect_error(many + "\"k57\":1}", "parse_error", "");
+  expect_error(call("goal.set", R"({"at":{"segment":"head","segment":"neck","point":[0,0,0]}})"), "parse_error", "");
+  accepted(call("goal.set", R"({"at":{"segment":"head","point":[0,0,0]},"id":"segment"})"));
+}
+
+// Each key was compared with all before it: one line kept the daemon busy for minutes.
+TEST(DecodeEnvelope, AMillionBytesOfKeysAreSoonRead) {
+  std::string params = "{";
+  for (int i = 0; params.size() < kMaxLineBytes - 100; ++i) params += "\"" + std::to_string(i) + "\":0,";
+  expect_error(call("session.ping", params + "\"x\":0}"), "unknown_field", "/params/0");
+  // A scene of that size comes back as it was.
+  SceneDocument scene;
+  for (int i = 0; i < 2000; ++i) scene.figures["f" + std::to_string(i)].template_name = "tempus";
+  EXPECT_EQ(decode_scene(encode_scene(scene))->figures.size(), 2000u);
+}
+
+TEST(DecodeEnvelope, ANumberTooLargeIsQuoted) {
+  const BadRequest bad = refused(call("goal.set", R"({"weight":1e999})"));
+  EXPECT_NE(bad.error.message.find("1e999"), std::string::npos) << bad.error.message;
+  EXPECT_LT(refused("[" + std::string(100'000, '9') + "]").error.message.size(), 200u);
+}
+
 TEST(DecodeEnvelope, ARequestIsAnObjectThatSaysJsonRpc) {
   for (const char* text : {"1", "null", "\"session.ping\"", "true"}) expect_error(text, "invalid_request", "");
   expect_error(R"({"id":1,"method":"session.ping"})", "invalid_request", "/jsonrpc");

@@ -102,7 +102,7 @@ TEST(Documents, WhatIsWrongIsToldWithItsPath) {
     EXPECT_EQ(scene.error().path, path) << scene.error().message;
   };
   broken(R"([{"op":"replace","path":"/format","value":"posed.scene/2"}])", "bad_scene", "/format");
-  broken(R"([{"op":"remove","path":"/goals"}])", "bad_scene", "");
+  broken(R"([{"op":"remove","path":"/goals"}])", "bad_scene", "/goals");
   broken(R"([{"op":"add","path":"/extra","value":1}])", "bad_scene", "/extra");
   broken(R"([{"op":"replace","path":"/goals/g1/weight","value":"x"}])", "bad_scene", "/goals/g1/weight");
   broken(R"([{"op":"add","path":"/goals/g1/priority","value":1}])", "not_available", "/goals/g1/priority");

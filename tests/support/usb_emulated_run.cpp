@@ -5,9 +5,10 @@
 //   --unplugged    starts with nothing on the bus
 //   --swing        the sensors move as the simulated tracker's do; otherwise they stand still
 //
-// Each line on standard input is an act: plug, unplug, sensor N, no-sensor N, pose N X Y Z (inches, source frame), freeze,
-// thaw, status, quit (ends COMMAND with SIGTERM). SIGUSR1 unplugs, SIGUSR2 plugs in. Its exit status is COMMAND's; on standard error it says "usb:
-// streaming=0 claims=1" at the end, so that a test can see how the device was left.
+// Each line on standard input is an act: plug, unplug, sensor N, no-sensor N, pose N X Y Z (inches, source frame),
+// freeze, thaw, status, quit (ends COMMAND with SIGTERM). SIGUSR1 unplugs, SIGUSR2 plugs in. Its exit status is
+// COMMAND's; on standard error it says "usb: streaming=0 claims=1" at the end, so that a test can see how the device
+// was left.
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/signalfd.h>
