@@ -1,5 +1,6 @@
 // JSON lines over real sockets: requests, half-close, limits, stopping.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include "fake_station.h"
 
@@ -301,6 +302,26 @@ TEST(Lines, ThereIsALimitOfConnections) {
   peers.pop_back();
   ASSERT_TRUE(eventually([&] { return station.server.counters().connections == 2; }));
   EXPECT_EQ(RawPeer(station.server.port()).call(proto::SessionPing{}).id, 1);
+}
+
+TEST(Lines, WithoutDescriptorsAPeerWaitsInTheQueue) {
+  FakeStation station;
+  RawPeer first(station.server.port());
+  EXPECT_EQ(first.call(proto::SessionPing{}).id, 1);
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
+  const int next = ::dup(STDERR_FILENO);
+  ::close(next);
+  rlimit tight = before;
+  tight.rlim_cur = static_cast<rlim_t>(next) + 1;
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &tight), 0);
+  RawPeer second(station.server.port());  // takes the last descriptor
+  EXPECT_TRUE(second.connected());
+  second.send(ping(1));
+  for (int i = 1; i <= 100; ++i) EXPECT_EQ(first.call(proto::SessionPing{}, i).id, i) << "others go on";
+  EXPECT_EQ(station.server.counters().accepted, 1u);
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &before), 0);
+  EXPECT_EQ(second.incoming().id, 1);
 }
 
 TEST(Lines, ManyComeAndGo) {
