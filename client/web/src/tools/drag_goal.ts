@@ -7,7 +7,7 @@ import { onViewPlane } from "../views/projection";
 import type { Views } from "../views/views";
 import { pickGoal } from "./pick";
 import type { Requests } from "./requests";
-import type { Drag } from "./pointer";
+import type { Drag } from "./drag";
 
 export function dragGoal(views: Views, model: Model, requests: Requests, name: ViewName, x: number, y: number): Drag | null {
   const goal = pickGoal(views, model, name, x, y);

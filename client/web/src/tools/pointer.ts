@@ -1,4 +1,5 @@
 // The mouse in the panes: decides which tool a press belongs to and hands the drag on to it.
+import type { Drag } from "./drag";
 import type { Model } from "../state/model";
 import { isOrtho, viewNames, type ViewName } from "../views/names";
 import type { Views } from "../views/views";
@@ -6,11 +7,6 @@ import { dragGoal } from "./drag_goal";
 import { makeGoal } from "./make_goal";
 import { pickGoal, pickSegment } from "./pick";
 import type { Requests } from "./requests";
-
-export interface Drag {
-  move(x: number, y: number): void;
-  end(): void;
-}
 
 export function listenToPointer(views: Views, model: Model, requests: Requests): void {
   for (const name of viewNames) new PanePointer(views, model, requests, name);
