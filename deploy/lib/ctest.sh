@@ -10,6 +10,7 @@ ctest_in() {
   ctest --test-dir "build/$preset" --output-on-failure --no-tests=error --parallel "$(nproc)" --timeout 300 "$@" 2>&1 |
     tee "$out" || rc=$?
   ctest_tally "$out" >"$out.tally"
+  gtest_skips "build/$preset/Testing/Temporary/LastTest.log" >>"$out.tally"
   cat "$out.tally" >>"$TALLY"
   if ((rc != 0)) && ! grep -q ^failed "$out.tally"; then tally failed 1 "ctest"; fi
 }
@@ -31,3 +32,6 @@ ctest_tally() {
       for (i = 1; i <= n; i++) print line[i]
     }' "$1"
 }
+
+# A program of many cases passes when some of them are skipped: those are told too.
+gtest_skips() { sed -nE 's/^\[  SKIPPED \] ([[:alnum:]_\/]+\.[[:alnum:]_\/]+)$/skipped 1 \1/p' "$1"; }
