@@ -103,7 +103,7 @@ void Pipeline::solve() {
 Status Pipeline::load_scene(std::string_view text, net::ConnectionId by) {
   const Result<SceneDocument> document = proto::decode_scene(text);
   if (!document) return document.error();
-  const Status loaded = scene.load(*document);
+  Status loaded = scene.load(*document);
   if (loaded) edited(by);
   return loaded;
 }
