@@ -79,6 +79,32 @@ TEST(Daemon, AnEditIsAnsweredSolvedAndStreamed) {
   }
 }
 
+TEST(Daemon, StreamedPosesKeepBoneLengthsToTheirPrintedDigits) {
+  const RunningDaemon daemon({"simulated:3"});
+  auto client = daemon.connect();
+  const auto figure = client.call<proto::FigureResult>(proto::FigureGet{"body"});
+  ASSERT_TRUE(figure);
+  std::map<std::string, std::size_t> index;
+  for (std::size_t i = 0; i < figure->document.segments.size(); ++i) index[figure->document.segments[i].name] = i;
+  ASSERT_TRUE(client.call<proto::EditResult>(hand_goal({0.4, -0.3, 1.2})));
+  ASSERT_TRUE(client.call("binding.set", R"({"sensor":"simulated:1","to":{"goal":"body.right_hand.position"}})"));
+  ASSERT_TRUE(client.subscribe({proto::Stream::pose, {}, {"world_from_segment"}, 0.0, 0}));
+  for (int n = 0; n < 50; ++n) {
+    const auto frame = client.next(kPatience);
+    ASSERT_TRUE(frame) << frame.error().message;
+    const auto data = proto::decode_message<proto::PoseData>(frame->data);
+    ASSERT_TRUE(data);
+    const auto& world = data->figures[0].world_from_segment;
+    for (std::size_t i = 0; i < world.size(); ++i) {
+      const Segment& segment = figure->document.segments[i];
+      if (segment.parent.empty()) continue;
+      const Vec3 joint = world[index[segment.parent]] * segment.joint.parent_from_joint.position;
+      // Half a micrometre on each coordinate of both ends, and seven digits of the parent's quaternion.
+      EXPECT_LT(glm::length(joint - world[i].position), 2.1e-6) << segment.name;
+    }
+  }
+}
+
 TEST(Daemon, ASensorBoundToAGoalMovesTheFigureWithNoClientBetween) {
   const RunningDaemon daemon({"simulated:7"});
   auto client = daemon.connect();
