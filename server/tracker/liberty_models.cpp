@@ -31,11 +31,13 @@ const LibertyModel* liberty_by_loader(std::uint16_t product) {
 }
 
 std::string firmware_advice(const LibertyModel& model, const UsbIdentity& who) {
-  char text[400];
+  char text[500];
   std::snprintf(
       text, sizeof text,
-      "a %.*s without its firmware is on USB (%04x:%04x): install posed's udev rule (deploy/udev), which loads "
-      "it, and plug the tracker in again; by hand: fxload -t %.*s -s a3load.hex -I %.*s -D "
+      "a %.*s without its firmware is on USB (%04x:%04x); the firmware is Polhemus' and not part of posed: with its "
+      "files "
+      "at hand uncomment this tracker's line in deploy/60-posed-trackers.rules, install that, and plug the tracker in "
+      "again; by hand: fxload -t %.*s -s a3load.hex -I %.*s -D "
       "/dev/bus/usb/%03d/%03d",
       static_cast<int>(model.name.size()), model.name.data(), who.vendor, who.product,
       static_cast<int>(model.loader_type.size()), model.loader_type.data(), static_cast<int>(model.loader_image.size()),

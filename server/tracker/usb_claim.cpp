@@ -99,7 +99,7 @@ Error usb_open_error(int code, const UsbIdentity& who) {
   switch (code) {
     case LIBUSB_ERROR_ACCESS:
       return {"not_available", "no permission to open " + name_of(who), "",
-              "install posed's udev rule (deploy/udev) and plug the tracker in again"};
+              "install posed's udev rule (deploy/60-posed-trackers.rules) and plug the tracker in again"};
     case LIBUSB_ERROR_BUSY: {
       const std::string holder = usb_holder(who);
       return {"not_available", name_of(who) + " is in use by " + (holder.empty() ? "another program" : holder), "",

@@ -1,7 +1,9 @@
 #include "server/tracker/usb_claim.h"
 
 #include <gtest/gtest.h>
+
 #include <libusb.h>
+#include <filesystem>
 
 #include "server/tracker/liberty_models.h"
 
@@ -17,7 +19,8 @@ TEST(UsbErrors, EachNamesTheDeviceAndACure) {
     EXPECT_NE(error.message.find("0f44:ff20 (/dev/bus/usb/001/004)"), std::string::npos) << error.message;
     EXPECT_FALSE(error.hint.empty());
   }
-  EXPECT_NE(usb_open_error(LIBUSB_ERROR_ACCESS, kWho).hint.find("udev rule"), std::string::npos);
+  EXPECT_NE(usb_open_error(LIBUSB_ERROR_ACCESS, kWho).hint.find("deploy/60-posed-trackers.rules"), std::string::npos);
+  EXPECT_TRUE(std::filesystem::exists(POSED_SOURCE_DIR "/deploy/60-posed-trackers.rules")) << "the cure names it";
 }
 
 TEST(UsbErrors, TheHolderIsUnknownWhereNobodyHoldsIt) {
