@@ -2,6 +2,7 @@
 // Plain values; solver/body_tree.h checks them.
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -51,12 +52,30 @@ struct Limit {
   double min = 0.0, max = 0.0;  // rad or m
 };
 
+// Where a ball joint's limb may point: a region of directions in the joint's frame. p is the limb's direction at rest
+// (joint's origin to touch point).
+struct Swing {
+  enum class Kind {
+    ellipse,  // the direction d = exp_c(u): with t0 = X made perpendicular to c (Y if parallel) and t1 = c x t0,
+              // (u.t0 / radii[0])^2 + (u.t1 / radii[1])^2 <= 1, where |u| is the angle between c and d
+    polygon   // inside the convex spherical polygon `corners`, great arcs between them (Korein 1985)
+  } kind = Kind::ellipse;
+  Vec3 center{0.0, 0.0, 0.0};             // c, unit; zero: p
+  std::array<double, 2> radii{0.0, 0.0};  // rad, above 0 and below pi
+  std::vector<Vec3> corners;              // unit, three or more, counter-clockwise seen from outside
+};
+
 struct Joint {
   std::string name;
   JointType type = JointType::ball;
   Transform parent_from_joint;  // where the segment's frame lies in its parent's at rest (the root's: in the world)
   std::vector<Vec3> axes;       // unit; universal: two, hinge and prismatic: one, in the joint's frame at rest
-  std::vector<std::optional<Limit>> limits;  // one a degree of freedom (ball: about x, y, z), or none at all
+  std::vector<std::optional<Limit>> limits;  // one a degree of freedom or none at all. Ball: the angles x, y, z of
+                                             // R = Rx(x) Ry(y) Rz(z); universal: R = R0(first) R1(second)
+  // A ball joint may have these in place of `limits`: its turn is that which carries p to the limb's direction by the
+  // shortest arc, after a twist about p.
+  std::optional<Swing> swing;
+  std::optional<Limit> twist;     // rad, within -pi to pi
   Vec3 bend_axis{0.0, 0.0, 0.0};  // unit, joint's frame at rest: a straight limb bends about it; zero: no wish
 };
 

@@ -12,9 +12,11 @@ enum class GoalState { off, reached, unreachable, limited, balanced };
 enum class SolveStatus { converged, deadline, stalled };
 
 struct Cause {
-  enum class Kind { goal, beyond } kind = Kind::goal;
-  int goal = -1;          // index among the pose's goals: it holds this one
-  double beyond_m = 0.0;  // how far the target lies beyond the straight chain
+  enum class Kind { goal, beyond, limit } kind = Kind::goal;
+  int goal = -1;                                         // index among the pose's goals: it holds this one
+  double beyond_m = 0.0;                                 // how far the target lies beyond the straight chain
+  int joint = -1;                                        // by its segment: its limit holds this goal
+  enum class Side { min, max, swing } side = Side::min;  // of that limit
 };
 
 struct GoalReport {

@@ -1,8 +1,7 @@
 // Bad input is a value, not an exception: a Result holds either what was asked for or an Error that names the field and
-// says what would be right.
+// says what would be right. To take the one when it holds the other is a bug of ours: std::bad_variant_access.
 #pragma once
 
-#include <cassert>
 #include <optional>
 #include <string>
 #include <utility>
@@ -24,14 +23,14 @@ class [[nodiscard]] Result {
   Result(Error error) : state_(std::in_place_index<1>, std::move(error)) {}
 
   explicit operator bool() const { return state_.index() == 0; }
-  T& value() { return assert(*this), *std::get_if<0>(&state_); }
-  const T& value() const { return assert(*this), *std::get_if<0>(&state_); }
+  T& value() { return std::get<0>(state_); }
+  const T& value() const { return std::get<0>(state_); }
   T* operator->() { return &value(); }
   const T* operator->() const { return &value(); }
   T& operator*() { return value(); }
   const T& operator*() const { return value(); }
-  Error& error() { return assert(!*this), *std::get_if<1>(&state_); }
-  const Error& error() const { return assert(!*this), *std::get_if<1>(&state_); }
+  Error& error() { return std::get<1>(state_); }
+  const Error& error() const { return std::get<1>(state_); }
 
  private:
   std::variant<T, Error> state_;
