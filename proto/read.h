@@ -89,7 +89,9 @@ void read(ReadContext& c, const Json& j, E& out) {
   for (std::size_t i = 0; i < EnumNames<E>::names.size(); ++i) {
     if (text == EnumNames<E>::names[i]) return void(out = static_cast<E>(i));
   }
-  c.fail("invalid_params", "\"" + text.substr(0, 64) + "\" is not a word that is known here", enum_words<E>());
+  // Not "\"" + ...: GCC 12 warns falsely of an overlap in it.
+  c.fail("invalid_params", std::string("\"").append(text, 0, 64).append("\" is not a word that is known here"),
+         enum_words<E>());
 }
 
 template <class T>

@@ -153,7 +153,8 @@ void Pipeline::on_tracker(const std::string& id, const std::string& kind, const 
 }
 
 void Pipeline::on_opened(net::ConnectionId connection, net::Peer peer) {
-  sessions[connection] = {"s" + std::to_string(next_session_++), std::move(peer), "", {}};
+  // Not "s" + ...: GCC 12 warns falsely of an overlap in it.
+  sessions[connection] = {std::string("s").append(std::to_string(next_session_++)), std::move(peer), "", {}};
 }
 
 void Pipeline::on_closed(net::ConnectionId connection) {
