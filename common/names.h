@@ -15,4 +15,13 @@ bool valid_id(std::string_view id);
 // they are few; empty where there are none.
 std::string did_you_mean(std::string_view name, std::span<const std::string> candidates);
 
+// The keys of a map, as such candidates.
+template <class Map>
+std::vector<std::string> keys(const Map& map) {
+  std::vector<std::string> names;
+  names.reserve(map.size());
+  for (const auto& entry : map) names.push_back(entry.first);
+  return names;
+}
+
 }  // namespace posed

@@ -5,12 +5,10 @@
 #include "proto/read.h"
 #include "proto/write.h"
 
-// A message without fields.
-#define POSED_EMPTY(Type) \
-  template <class V>      \
-  void describe(V&, Type&) {}
-
 namespace posed::proto {
+
+template <class M, class... Messages>
+concept OneOf = (std::is_same_v<M, Messages> || ...);
 
 // ---- vocabulary ----
 
@@ -151,17 +149,12 @@ void describe(V& v, SessionHello& m) {
   v.reserved("token");
   v.reserved("resume");
 }
-POSED_EMPTY(SessionPing)
-POSED_EMPTY(SessionStatus)
-POSED_EMPTY(SessionList)
-POSED_EMPTY(FigureList)
-POSED_EMPTY(GoalList)
-POSED_EMPTY(BindingList)
-POSED_EMPTY(SolverGet)
-POSED_EMPTY(SceneGet)
-POSED_EMPTY(SceneList)
-POSED_EMPTY(TrackerList)
-POSED_EMPTY(EmptyResult)
+
+// What has no fields.
+template <class V, class M>
+requires OneOf<M, SessionPing, SessionStatus, SessionList, FigureList, GoalList, BindingList, SolverGet, SceneGet,
+               SceneList, TrackerList, EmptyResult>
+void describe(V&, M&) {}
 
 template <class V>
 void describe(V& v, FigureSet& m) {
@@ -174,8 +167,7 @@ void describe(V& v, FigureSet& m) {
 }
 
 template <class V, class M>
-requires std::is_same_v<M, FigureGet> || std::is_same_v<M, FigureRemove> || std::is_same_v<M, GoalGet> ||
-    std::is_same_v<M, GoalRemove> || std::is_same_v<M, BindingGet> || std::is_same_v<M, BindingRemove>
+requires OneOf<M, FigureGet, FigureRemove, GoalGet, GoalRemove, BindingGet, BindingRemove>
 void describe(V& v, M& m) {
   v.required("id", m.id);
 }
@@ -278,7 +270,7 @@ void describe(V& v, SceneNew& m) {
 }
 
 template <class V, class M>
-requires std::is_same_v<M, SceneSave> || std::is_same_v<M, SceneOpen>
+requires OneOf<M, SceneSave, SceneOpen>
 void describe(V& v, M& m) {
   v.required("name", m.name);
 }

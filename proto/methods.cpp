@@ -88,6 +88,7 @@ const Method& method_of(const Params& params) {
 
 std::string nearest_method(std::string_view name) {
   std::vector<std::string> names;
+  names.reserve(kMethods.size());
   for (const Method& m : kMethods) names.emplace_back(m.name);
   return did_you_mean(name, names);
 }

@@ -9,10 +9,8 @@ template <class Map>
 auto* find(const Map& map, const std::string& id, const char* what, Responder& responder) {
   const auto found = map.find(id);
   if (found != map.end()) return &found->second;
-  std::vector<std::string> known;
-  for (const auto& [key, value] : map) known.push_back(key);
   responder.error({std::string("unknown_") + what, std::string("no ") + what + " is called " + id.substr(0, 64),
-                   "/params/id", did_you_mean(id, known)});
+                   "/params/id", did_you_mean(id, keys(map))});
   return static_cast<decltype(&found->second)>(nullptr);
 }
 

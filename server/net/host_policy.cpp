@@ -31,7 +31,7 @@ std::string host_without_port(std::string_view host) {
   return lower(host);
 }
 
-HostPolicy::HostPolicy(bool loopback, std::vector<std::string> hosts, std::vector<std::string> origins)
+HostPolicy::HostPolicy(bool loopback, const std::vector<std::string>& hosts, const std::vector<std::string>& origins)
     : loopback_(loopback) {
   for (const std::string& host : hosts) hosts_.push_back(host_without_port(host));
   for (const std::string& origin : origins) origins_.push_back(lower(origin));

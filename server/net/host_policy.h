@@ -10,7 +10,7 @@ namespace posed::net {
 class HostPolicy {
  public:
   // `loopback`: bound to a loopback address. `hosts`, `origins`: as in Options.
-  HostPolicy(bool loopback, std::vector<std::string> hosts, std::vector<std::string> origins);
+  HostPolicy(bool loopback, const std::vector<std::string>& hosts, const std::vector<std::string>& origins);
 
   // Of a Host header. A name that is not ours, on a loopback address, is another site's that was made to point here
   // (DNS rebinding). Addresses can't be rebound.

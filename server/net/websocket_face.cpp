@@ -11,7 +11,7 @@ void WebsocketFace::take(std::string_view bytes) {
     if (stuck_) return;
     auto message = reader_.next();
     if (!message) break;
-    take(std::move(*message));
+    take(*message);
   }
   if (parted_ || reader_.error() == 0) return;
   parted_ = true;
@@ -20,7 +20,7 @@ void WebsocketFace::take(std::string_view bytes) {
   link_.part(reader_.error(), std::move(last_words), Link::Owed::wait);
 }
 
-void WebsocketFace::take(FrameReader::Message message) {
+void WebsocketFace::take(const FrameReader::Message& message) {
   switch (message.opcode) {
     case Opcode::text:
       return link_.hand_up(message.payload);

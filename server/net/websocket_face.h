@@ -17,7 +17,7 @@ class WebsocketFace : public Face {
   SharedLine goodbye(std::uint16_t close_code) const override;
 
  private:
-  void take(FrameReader::Message message);
+  void take(const FrameReader::Message& message);
 
   Link& link_;
   std::size_t max_line_;

@@ -7,17 +7,17 @@ namespace posed::net {
 FrameHeader frame_header(Opcode opcode, std::size_t size) {
   FrameHeader header{};
   header.bytes[0] = static_cast<char>(0x80 | static_cast<std::uint8_t>(opcode));
-  int length_bytes = 0;
+  std::size_t length_bytes = 0;
   if (size < 126) {
     header.bytes[1] = static_cast<char>(size);
   } else {
     length_bytes = size < 65536 ? 2 : 8;
     header.bytes[1] = length_bytes == 2 ? 126 : 127;
   }
-  for (int i = 0; i < length_bytes; ++i) {
-    header.bytes[static_cast<std::size_t>(2 + i)] = static_cast<char>(size >> (8 * (length_bytes - 1 - i)));
+  for (std::size_t i = 0; i < length_bytes; ++i) {
+    header.bytes[2 + i] = static_cast<char>(size >> (8 * (length_bytes - 1 - i)));
   }
-  header.size = static_cast<std::size_t>(2 + length_bytes);
+  header.size = 2 + length_bytes;
   return header;
 }
 

@@ -11,13 +11,6 @@
 
 namespace posed {
 
-template <class Map>
-std::vector<std::string> keys(const Map& map) {
-  std::vector<std::string> names;
-  for (const auto& [key, value] : map) names.push_back(key);
-  return names;
-}
-
 inline Error unknown(const std::string& what, const std::string& name, const std::vector<std::string>& known,
                      const std::string& path) {
   std::string hint = did_you_mean(name, known);

@@ -19,13 +19,6 @@ void append_rest(const Joint& joint, bool is_free, std::vector<double>& q) {
   }
 }
 
-template <class Map>
-std::vector<std::string> keys(const Map& map) {
-  std::vector<std::string> names;
-  for (const auto& entry : map) names.push_back(entry.first);
-  return names;
-}
-
 }  // namespace
 
 Result<BodyTree> BodyTree::build(const FigureDocument& document) {

@@ -58,7 +58,9 @@ class References {
       if (auto e = known(path + "/0", left)) return e;
       if (auto e = known(path + "/1", right)) return e;
       if (!seen.insert(left).second || !seen.insert(right).second) {
-        return bad(path, "a segment of the pair " + left + ", " + right + " is mirrored twice",
+        std::string pair = left;
+        pair.append(", ").append(right);
+        return bad(path, "a segment of the pair " + pair + " is mirrored twice",
                    "name each segment in one pair; what stands in none mirrors itself");
       }
     }

@@ -21,7 +21,7 @@ void FrameAssembler::add(Sample sample, Nanoseconds now, std::vector<Frame>& out
 
   const int station = sample.station;
   pending_.t_ns = now;
-  pending_.samples.push_back(std::move(sample));
+  pending_.samples.push_back(sample);
   if (station >= highest_) {
     highest_ = station;
     close(out);

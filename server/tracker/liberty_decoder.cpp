@@ -34,7 +34,7 @@ LibertyOutput LibertyDecoder::feed(std::span<const std::uint8_t> bytes, Nanoseco
     const LibertyHeader header = parse_liberty_header(rest);
     const std::span<const std::uint8_t> body = rest.subspan(kLibertyHeaderSize, static_cast<std::size_t>(header.size));
     if (kind == Kind::data) {
-      take(std::move(sample), header.error, now, out);
+      take(sample, header.error, now, out);
     } else {
       const std::uint8_t error = no_error(header.error) ? std::uint8_t{0} : header.error;
       out.replies.push_back({header.station, header.command, error, {body.begin(), body.end()}});
@@ -95,7 +95,7 @@ void LibertyDecoder::take(Sample sample, std::uint8_t error, Nanoseconds now, Li
     sample.error_letter = static_cast<char>(error);
   }
   if (layout_.counted()) sample.device_t_ns = device_time(sample.device_count);
-  assembler_.add(std::move(sample), now, out.frames);
+  assembler_.add(sample, now, out.frames);
 }
 
 // The count, not the device's own millisecond stamp, which is rounded down and jitters by a quarter of the period.

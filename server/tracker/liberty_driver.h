@@ -23,7 +23,7 @@ struct LibertyDriverOptions {
   std::optional<Vec3> hemisphere;
 };
 
-class LibertyDriver : public Tracker {
+class LibertyDriver final : public Tracker {
  public:
   LibertyDriver(LibertyDriverOptions options, TimeSource now);
   ~LibertyDriver() override;

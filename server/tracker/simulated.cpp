@@ -68,7 +68,7 @@ Frame simulated_frame(const SimulatedOptions& options, std::uint64_t count) {
     sample.rotation = quat_about(kZ, turn.z) * quat_about(kY, turn.y) * quat_about(kX, turn.x);
     sample.device_count = static_cast<std::uint32_t>(count);
     sample.device_t_ns = t;
-    frame.samples.push_back(std::move(sample));
+    frame.samples.push_back(sample);
   }
   return frame;
 }

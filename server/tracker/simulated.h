@@ -23,7 +23,7 @@ struct SimulatedOptions {
 // The frame of tick `count`; pure. t_ns is 0: the caller's to set. World axes, m.
 Frame simulated_frame(const SimulatedOptions& options, std::uint64_t count);
 
-class SimulatedTracker : public Tracker {
+class SimulatedTracker final : public Tracker {
  public:
   SimulatedTracker(SimulatedOptions options, TimeSource now);
   ~SimulatedTracker() override;

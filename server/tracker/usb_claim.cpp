@@ -124,7 +124,7 @@ std::string usb_holder(const UsbIdentity& who) {
       std::ifstream comm(process / "comm");
       std::string name;
       std::getline(comm, name);
-      return name + " (process " + pid + ")";
+      return name.append(" (process ").append(pid).append(")");
     }
   }
   return {};
