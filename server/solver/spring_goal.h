@@ -49,7 +49,7 @@ struct LineSpring {
 // is wanting or too much.
 struct DistanceSpring {
   enum class Compare { equal, at_least, at_most };
-  AttachedPoint to;
+  AttachedPoint to;  // of SpringGoal::base_figure
   double length = 0.0;
   Compare compare = Compare::equal;
 };
@@ -69,11 +69,13 @@ using Spring = std::variant<PositionSpring, OrientationSpring, PoseSpring, AimSp
                             DistanceSpring, BalanceSpring, PostureSpring>;
 
 struct SpringGoal {
+  int figure = 0;    // of those that are solved as one
   AttachedPoint at;  // of kinds that take hold somewhere
   Spring spring;
   // The base. A base that moves with the figure is a segment: both ends of the goal then move. Else the goal is
   // relative to `world_from_base`, which is fixed while the solver runs (the world, an object, a sensor).
   int base_segment = -1;
+  int base_figure = 0;  // that the segment, or a distance goal's other end, belongs to
   Transform world_from_base;
   double weight = 10.0;
   double orientation_weight = 10.0;  // of a pose goal's orientation; of no other kind

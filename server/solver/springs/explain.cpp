@@ -1,0 +1,211 @@
+#include "server/solver/springs/explain.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace posed::springs {
+namespace {
+
+double length(std::span<const double> v) {
+  double sum = 0.0;
+  for (const double x : v) sum += x * x;
+  return std::sqrt(sum);
+}
+
+Cause::Side side_of(Probe::Bound bound) {
+  return bound == Probe::Bound::max   ? Cause::Side::max
+         : bound == Probe::Bound::min ? Cause::Side::min
+                                      : Cause::Side::swing;
+}
+
+double counted(Sense sense, double error) {
+  return sense == Sense::equal ? error : sense == Sense::at_least ? std::min(error, 0.0) : std::max(error, 0.0);
+}
+
+}  // namespace
+
+void Explainer::prepare(const Plan& plan, std::size_t goals) {
+  probe_.prepare(plan);
+  dofs_ = plan.dofs.size();
+  slopes_.resize(goals * dofs_);
+  total_.resize(dofs_);
+  sprung_.resize(dofs_);
+  costs_.resize(goals);
+  pulls_.reserve(goals);
+}
+
+double Explainer::explain(const Plan& plan, std::span<const SpringGoal> goals,
+                          const std::vector<std::vector<int>>& link_of_segment, const State& state,
+                          std::vector<GoalReport>& out) {
+  out.resize(goals.size());
+  probe_.place(plan, state);
+  std::fill(slopes_.begin(), slopes_.end(), 0.0);
+  std::fill(total_.begin(), total_.end(), 0.0);
+  for (GoalReport& report : out) {
+    report.error = 0.0;
+    report.force = report.touch = report.target = kZero;
+    report.state = GoalState::off;
+    report.causes.clear();
+    report.causes.reserve(kMostCauses + 4);
+  }
+  std::fill(costs_.begin(), costs_.end(), 0.0);
+  std::fill(sprung_.begin(), sprung_.end(), 0.0);
+  if (plan.sprung) probe_.pull_springs(plan, state, sprung_);
+  for (const Term& term : plan.terms) {
+    const auto g = static_cast<std::size_t>(term.goal);
+    report(plan, term, goals[g], out[g]);
+    if (term.weight > 0.0) probe_.pull(plan, term, slope(g));
+  }
+  for (std::size_t g = 0; g < goals.size(); ++g) {
+    const auto* posture = std::get_if<PostureSpring>(&goals[g].spring);
+    if (posture && pulls(goals[g]))
+      report_posture(plan, *posture, goals[g], g, link_of_segment[static_cast<std::size_t>(goals[g].figure)], out[g]);
+  }
+  double scale = 0.0, most = 0.0;
+  for (std::size_t g = 0; g < goals.size(); ++g) {
+    for (std::size_t j = 0; j < dofs_; ++j) total_[j] += slope(g)[j];
+    scale = std::max(scale, length(slope(g)));
+  }
+  for (std::size_t j = 0; j < dofs_; ++j) {
+    if (probe_.held(plan, state, j, total_[j]) == Probe::Bound::none) most = std::max(most, std::abs(total_[j]));
+  }
+  for (std::size_t g = 0; g < goals.size(); ++g) {
+    if (!pulls(goals[g])) continue;
+    find_state(plan, state, goals[g], g, std::holds_alternative<OrientationSpring>(goals[g].spring), out);
+  }
+  double weights = 0.0;
+  for (const Term& term : plan.terms) weights += term.weight;
+  // Pulls of less than a nanometre are no pulls.
+  return most / std::max({scale, 1e-9 * weights, 1e-300});
+}
+
+// Error, force, touch and target of one term; a pose goal's second adds to its first.
+void Explainer::report(const Plan& plan, const Term& term, const SpringGoal& goal, GoalReport& out) {
+  const TermErrors errors = probe_.errors(plan, term);
+  double square = 0.0;
+  Vec3 error = kZero;
+  for (int k = 0; k < errors.count; ++k) {
+    const double e = counted(term.sense, errors.error[static_cast<std::size_t>(k)]);
+    error[k] = e;
+    square += e * e;
+  }
+  out.error = std::sqrt(out.error * out.error + square);
+  costs_[static_cast<std::size_t>(term.goal)] += term.weight * square;
+  if (term.kind == TermKind::balance) {
+    out.touch = out.target = probe_.centre_of_mass(plan, term.figure);
+    return;
+  }
+  const Transform base = term.base >= 0 ? probe_.link(term.base) : Transform{};
+  const Vec3 touch = probe_.point(term.link, term.point);
+  const Vec3 place = base * term.place, way = base.rotation * term.direction;
+  switch (term.kind) {
+    case TermKind::point:
+      out.target = place;
+      break;
+    case TermKind::plane:
+      out.target = touch - way * error.x;
+      break;
+    case TermKind::line:
+      out.target = place + way * glm::dot(touch - place, way);
+      break;
+    case TermKind::distance: {
+      const double apart = glm::length(touch - place);
+      out.target = apart > 0.0 ? touch - (touch - place) * (error.x / apart) : touch;
+      break;
+    }
+    case TermKind::aim:
+      out.target = term.at_point ? place : touch + way * term.lever;
+      break;
+    case TermKind::turn:
+    case TermKind::balance:
+      if (!std::holds_alternative<PoseSpring>(goal.spring)) out.target = touch;
+      break;
+  }
+  out.touch = touch;
+  const bool is_turn = term.kind == TermKind::turn || term.kind == TermKind::aim;
+  if (!is_turn) out.force = (out.target - touch) * term.weight;
+  if (term.kind == TermKind::turn && !std::holds_alternative<PoseSpring>(goal.spring)) out.force = -error * term.weight;
+}
+
+void Explainer::report_posture(const Plan& plan, const PostureSpring& posture, const SpringGoal& goal,
+                               std::size_t index, const std::vector<int>& link_of_segment, GoalReport& out) {
+  double square = 0.0;
+  for (const int joint : posture.joints) {
+    const Link& link = plan.links[static_cast<std::size_t>(link_of_segment[static_cast<std::size_t>(joint)])];
+    for (std::size_t j = static_cast<std::size_t>(link.dof); j < static_cast<std::size_t>(link.dof + link.dofs); ++j) {
+      const double weight = plan.springs[j].weight;
+      if (weight <= 0.0) continue;
+      // The spring's weight has the lever in it. Two posture goals on one joint are told as one.
+      const double off = sprung_[j] / weight;
+      square += off * off * weight / goal.weight;
+      slope(index)[j] += sprung_[j];
+    }
+  }
+  out.error = std::sqrt(square);
+  costs_[index] = goal.weight * square;
+  out.touch = out.target = probe_.point(link_of_segment[0], kZero);
+}
+
+void Explainer::find_state(const Plan& plan, const State& state, const SpringGoal& goal, std::size_t index,
+                           bool turns_only, std::vector<GoalReport>& out) {
+  GoalReport& report = out[index];
+  const double reached = turns_only ? kReachedTurn * 0.25 : kReachedPlace;
+  report.state = GoalState::reached;
+  if (report.error <= std::max(goal.tolerance, reached)) return;
+  double held = 0.0, free = 0.0;
+  for (std::size_t j = 0; j < dofs_; ++j) {
+    const double s = slope(index)[j];
+    // It is the sum of all pulls that a limit stands against; this goal's share counts where it pushes the same way.
+    const bool limit = probe_.held(plan, state, j, total_[j]) != Probe::Bound::none && s * total_[j] > 0.0;
+    (limit ? held : free) += s * s;
+  }
+  held = std::sqrt(held), free = std::sqrt(free);
+  const double whole = std::max(goal.weight, goal.orientation_weight) * report.error;
+  if (free <= kNoPull * whole)
+    report.state = GoalState::unreachable;
+  else
+    report.state = held > free ? GoalState::limited : GoalState::balanced;
+  name_causes(plan, state, index, held, out);
+}
+
+void Explainer::name_causes(const Plan& plan, const State& state, std::size_t index, double held_by_limits,
+                            std::vector<GoalReport>& out) {
+  std::vector<Cause>& causes = out[index].causes;
+  const std::span<double> mine = slope(index);
+  // Limits that take a tenth of the pull or more.
+  for (std::size_t i = 0; i < plan.links.size(); ++i) {
+    const Link& link = plan.links[i];
+    for (std::size_t j = static_cast<std::size_t>(link.dof); j < static_cast<std::size_t>(link.dof + link.dofs); ++j) {
+      const Probe::Bound bound = probe_.held(plan, state, j, total_[j]);
+      if (bound == Probe::Bound::none || mine[j] * total_[j] <= 0.0) continue;
+      if (std::abs(mine[j]) < 0.1 * held_by_limits || causes.size() >= kMostCauses) continue;
+      Cause cause;
+      cause.kind = Cause::Kind::limit;
+      cause.figure = link.figure;
+      cause.joint = link.segment;
+      cause.side = side_of(bound);
+      causes.push_back(cause);
+    }
+  }
+  // Goals that pull the other way, the strongest first.
+  pulls_.clear();
+  for (std::size_t g = 0; g < out.size(); ++g) {
+    double product = 0.0;
+    for (std::size_t j = 0; g != index && j < dofs_; ++j) {
+      if (probe_.held(plan, state, j, total_[j]) == Probe::Bound::none) product += slope(g)[j] * mine[j];
+    }
+    if (product < 0.0) pulls_.push_back({g, -product});
+  }
+  std::sort(pulls_.begin(), pulls_.end(), [](const Pull& a, const Pull& b) {
+    return a.strength != b.strength ? a.strength > b.strength : a.goal < b.goal;
+  });
+  const double strongest = pulls_.empty() ? 0.0 : pulls_.front().strength;
+  for (const Pull& pull : pulls_) {
+    if (pull.strength < 0.01 * strongest || causes.size() >= kMostCauses) break;
+    Cause cause;
+    cause.goal = static_cast<int>(pull.goal);
+    causes.push_back(cause);
+  }
+}
+
+}  // namespace posed::springs

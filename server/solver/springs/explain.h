@@ -1,0 +1,61 @@
+// Why each goal stands where it does (common/pose.h: GoalReport), from how all goals pull at the joints.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "common/pose.h"
+#include "server/solver/springs/probe.h"
+#include "server/solver/springs/terms.h"
+
+namespace posed::springs {
+
+// A pull is counted as none below this share of the whole.
+inline constexpr double kNoPull = 1e-3;
+inline constexpr double kReachedTurn = 0.01;   // rad
+inline constexpr double kReachedPlace = 1e-3;  // m
+inline constexpr std::size_t kMostCauses = 8;
+
+class Explainer {
+ public:
+  // After it `explain` does not allocate.
+  void prepare(const Plan& plan, std::size_t goals);
+
+  // Plan::terms are those of all goals, as they are given. States as in the protocol:
+  //   reached      the error is within the tolerance, 1 mm or 0.01 rad
+  //   unreachable  it pulls, and no degree of freedom that is free to follow feels it
+  //   limited      more of its pull is held by limits than by the other goals
+  //   balanced     else
+  // Returns the greatest slope of a free degree of freedom over the sum of the goals' slopes there: 0 in perfect
+  // balance.
+  double explain(const Plan& plan, std::span<const SpringGoal> goals,
+                 const std::vector<std::vector<int>>& link_of_segment, const State& state,
+                 std::vector<GoalReport>& out);
+  double cost(std::size_t goal) const { return costs_[goal]; }  // of the last explain: sum of weight x error squared
+
+  Probe& probe() { return probe_; }
+
+ private:
+  struct Pull {
+    std::size_t goal;
+    double strength;
+  };
+
+  void report(const Plan& plan, const Term& term, const SpringGoal& goal, GoalReport& out);
+  void report_posture(const Plan& plan, const PostureSpring& posture, const SpringGoal& goal, std::size_t index,
+                      const std::vector<int>& link_of_segment, GoalReport& out);
+  void find_state(const Plan& plan, const State& state, const SpringGoal& goal, std::size_t index, bool turns_only,
+                  std::vector<GoalReport>& out);
+  void name_causes(const Plan& plan, const State& state, std::size_t index, double held_by_limits,
+                   std::vector<GoalReport>& out);
+  std::span<double> slope(std::size_t goal) { return {slopes_.data() + goal * dofs_, dofs_}; }
+
+  Probe probe_;
+  std::size_t dofs_ = 0;
+  std::vector<double> slopes_;  // of each goal, one a degree of freedom
+  std::vector<double> total_, sprung_;
+  std::vector<double> costs_;  // of each goal
+  std::vector<Pull> pulls_;
+};
+
+}  // namespace posed::springs

@@ -1,0 +1,306 @@
+// One damped Newton step of a figure, joint by joint from the leaves to the roots, as in articulated-body dynamics
+// (Featherstone, Rigid Body Dynamics Algorithms, 2008, chapter 7): each joint takes one rank out of its segment's
+// matrix for every degree of freedom. Goals add to their own segment only, so the cost is linear in the reach tree's
+// size. What ties several segments (a goal relative to another segment, balance) is a row for each error on top of the
+// tree, brought in by Woodbury's formula.
+#if defined(POSED_SPRINGS_NEWTON_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef POSED_SPRINGS_NEWTON_INL_H_
+#undef POSED_SPRINGS_NEWTON_INL_H_
+#else
+#define POSED_SPRINGS_NEWTON_INL_H_
+#endif
+
+#include <vector>
+
+#include "server/solver/springs/kinematics-inl.h"
+#include "server/solver/springs/load-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace posed::springs::HWY_NAMESPACE {
+
+template <class T>
+class Newton {
+ public:
+  // Memory for `ties` rows of `tie_parts` parts in all.
+  void resize(const Plan& plan, std::size_t ties, std::size_t tie_parts) {
+    loads_.resize(plan.links.size());
+    slopes_.resize(plan.links.size());
+    motions_.resize(plan.links.size());
+    roots_.resize(plan.links.size());
+    columns_.resize(plan.dofs.size());
+    spring_slopes_.resize(plan.dofs.size());
+    ties_.reserve(ties);
+    parts_.reserve(tie_parts);
+    tie_matrix_.resize(ties * ties);
+    tie_slopes_.resize(ties);
+  }
+
+  void clear() {
+    for (Load<T>& load : loads_) load.clear();
+    ties_.clear();
+    parts_.clear();
+  }
+  Load<T>& load(int link) { return loads_[static_cast<std::size_t>(link)]; }
+  // The slope of a degree of freedom's own spring; Plan::springs has the weight.
+  T& spring_slope(std::size_t dof) { return spring_slopes_[dof]; }
+
+  // A row over several segments. Parts are added after it.
+  void add_tie(const T& weight) { ties_.push_back({weight, parts_.size(), parts_.size()}); }
+  void add_part(int link, const Wrench<T>& row) {
+    parts_.push_back({link, row});
+    ++ties_.back().end;
+  }
+
+  // Eliminates all joints. `damping` times a degree of freedom's effort is added to its pivot; `newton` is 1 where the
+  // terms of second order count, else 0. False in a lane whose quadratic has no minimum. `gain` gets what the quadratic
+  // promises to lose (ties apart).
+  Mask<T> factor(const Plan& plan, const Steps<T>& at, const Kinematics<T>& figure, const T& damping, bool by_effort,
+                 const T& newton, T& gain) {
+    if (!ties_.empty()) {
+      for (std::size_t i = 0; i < loads_.size(); ++i) slopes_[i] = loads_[i].slope;
+      raw_slopes_ = slopes_;
+    }
+    T least_pivot(1.0);
+    gain = T(0.0);
+    for (std::size_t i = plan.links.size(); i-- > 0;) {
+      const Link& link = plan.links[i];
+      Load<T>& load = loads_[i];
+      if (link.kind == LinkKind::floating) {
+        factor_root(plan, link, damping, by_effort, newton, least_pivot, load, roots_[i]);
+        motions_[i] = root_motion(plan, link, i, load.slope, gain);
+        continue;
+      }
+      for (int j = link.dof + link.dofs; j-- > link.dof;) {
+        take_out(plan, link, i, static_cast<std::size_t>(j), at, figure, damping, by_effort, newton, load, least_pivot,
+                 gain);
+      }
+      if (link.parent >= 0)
+        load.hand_down(figure.placed(static_cast<int>(i)).centre - figure.placed(link.parent).centre,
+                       this->load(link.parent));
+    }
+    if (!ties_.empty()) bring_in_ties(plan, figure);
+    return least_pivot > T(0.0);
+  }
+
+  // From the roots to the leaves: each joint's share of the step, kept inside its bounds, so that those below it make
+  // up for what it can not do.
+  void step(const Plan& plan, const Steps<T>& at, const Kinematics<T>& figure, const T& most_turn, Steps<T>& step) {
+    for (std::size_t i = 0; i < plan.links.size(); ++i) {
+      const Link& link = plan.links[i];
+      Wrench<T>& m = motions_[i];
+      if (link.kind == LinkKind::floating) {
+        T* to = step.more.data() + link.more;
+        to[0] = m.shift.x, to[1] = m.shift.y, to[2] = m.shift.z;
+        to[3] = m.turn.x, to[4] = m.turn.y, to[5] = m.turn.z;
+        continue;
+      }
+      carry(link, i, figure);
+      for (int j = link.dof; j < link.dof + link.dofs; ++j) {
+        const auto k = static_cast<std::size_t>(j);
+        T x = share(k, m);
+        x = most(least(x, most_turn), -most_turn);
+        x = most(least(x, T(plan.most[k]) - at.turns[k]), T(plan.least[k]) - at.turns[k]);
+        step.turns[k] = x;
+        move(plan.dofs[k], figure.axis(k), x, m);
+      }
+    }
+  }
+
+ private:
+  struct Column {
+    V3<T> turn, shift;  // the load's matrix times the axis
+    T inverse, slope;   // of the pivot (0: pinned); along the axis
+  };
+  struct Tie {
+    T weight;
+    std::size_t begin, end;  // parts
+  };
+  struct Part {
+    int link;
+    Wrench<T> row;
+  };
+
+  HWY_INLINE static T effort(const Plan& plan, std::size_t dof, bool by_effort) {
+    return T(by_effort ? plan.dofs[dof].effort : 1.0);
+  }
+
+  HWY_INLINE void factor_root(const Plan& plan, const Link& link, const T& damping, bool by_effort, const T& newton,
+                              T& least_pivot, Load<T>& load, RootFactor<T>& root) {
+    T diagonal[6];
+    for (int k = 0; k < 6; ++k) {
+      const auto dof = static_cast<std::size_t>(link.dof + k);
+      diagonal[k] = damping * effort(plan, dof, by_effort);
+      if (plan.sprung) diagonal[k] = diagonal[k] + T(plan.springs[dof].weight);
+    }
+    if (plan.sprung) {
+      const T* s = &spring_slopes_[static_cast<std::size_t>(link.dof)];
+      load.slope += {{s[3], s[4], s[5]}, {s[0], s[1], s[2]}};
+    }
+    if (!link.pinned) least_pivot = least(least_pivot, root.factor(load, diagonal, newton));
+  }
+
+  HWY_INLINE Wrench<T> root_motion(const Plan&, const Link& link, std::size_t i, const Wrench<T>& slope, T& gain) {
+    if (!link.pinned) return roots_[i].solve(slope, gain);
+    Wrench<T> none;
+    none.clear();
+    return none;
+  }
+
+  HWY_INLINE void take_out(const Plan& plan, const Link& link, std::size_t i, std::size_t j, const Steps<T>& at,
+                           const Kinematics<T>& figure, const T& damping, bool by_effort, const T& newton,
+                           Load<T>& load, T& least_pivot, T& gain) {
+    const V3<T>& axis = figure.axis(j);
+    const T zero(0.0), one(1.0), near(kOnEdge);
+    V3<T> u, w;
+    T pivot, slope;
+    if (plan.dofs[j].kind == DofKind::along_axis) {
+      u = load.turn_shift * axis + cross(axis, load.pull) * newton;
+      w = load.shift_shift * axis;
+      pivot = dot(w, axis);
+      slope = dot(load.slope.shift, axis);
+    } else {
+      u = load.turn_turn * axis + load.bend(axis) * newton;
+      w = load.turn_shift.turned_back(axis);
+      pivot = dot(u, axis);
+      slope = dot(load.slope.turn, axis);
+    }
+    pivot = pivot + damping * effort(plan, j, by_effort);
+    if (plan.sprung) {
+      pivot = pivot + T(plan.springs[j].weight);
+      slope = slope + spring_slopes_[j];
+    }
+    least_pivot = least(least_pivot, pivot);
+    // At a bound, and pushed against it.
+    Mask<T> pinned = ((at.turns[j] >= T(plan.most[j]) - near) & (slope < zero)) |
+                     ((at.turns[j] <= T(plan.least[j]) + near) & (slope > zero));
+    if (link.kind == LinkKind::limb) {
+      const Swinging<T>& swinging = figure.swinging(i);
+      if (j == static_cast<std::size_t>(link.dof)) pinned = pinned | ((swinging.on_edge > zero) & (slope < zero));
+      if (j == static_cast<std::size_t>(link.dof) + 1) pinned = pinned | (swinging.corner * slope < zero);
+    }
+    const T inverse = select(pinned, zero, one / pivot);
+    const T share = slope * inverse;
+    gain = gain + slope * share;
+    load.take_out(u, w, inverse, share);
+    columns_[j] = {u, w, inverse, slope};
+  }
+
+  HWY_INLINE void carry(const Link& link, std::size_t i, const Kinematics<T>& figure) {
+    Wrench<T>& m = motions_[i];
+    if (link.parent < 0) return m.clear();
+    const Wrench<T>& p = motions_[static_cast<std::size_t>(link.parent)];
+    m.turn = p.turn;
+    m.shift = p.shift + cross(p.turn, figure.placed(static_cast<int>(i)).centre - figure.placed(link.parent).centre);
+  }
+  HWY_INLINE T share(std::size_t j, const Wrench<T>& m) const {
+    const Column& c = columns_[j];
+    return -(c.slope + dot(c.turn, m.turn) + dot(c.shift, m.shift)) * c.inverse;
+  }
+  HWY_INLINE static void move(const Dof& dof, const V3<T>& axis, const T& x, Wrench<T>& m) {
+    if (dof.kind == DofKind::along_axis)
+      m.shift += axis * x;
+    else
+      m.turn += axis * x;
+  }
+
+  // The tree's answer to slopes_: motions_. Bounds are not looked at, but for those that pinned a joint.
+  void respond(const Plan& plan, const Kinematics<T>& figure, bool with_springs) {
+    T gain(0.0);
+    for (std::size_t i = plan.links.size(); i-- > 0;) {
+      const Link& link = plan.links[i];
+      Wrench<T> slope = slopes_[i];
+      if (link.kind == LinkKind::floating) {
+        if (with_springs && plan.sprung) {
+          const T* s = &spring_slopes_[static_cast<std::size_t>(link.dof)];
+          slope += {{s[3], s[4], s[5]}, {s[0], s[1], s[2]}};
+        }
+        motions_[i] = root_motion(plan, link, i, slope, gain);
+        continue;
+      }
+      for (int j = link.dof + link.dofs; j-- > link.dof;) {
+        const auto k = static_cast<std::size_t>(j);
+        Column& c = columns_[k];
+        c.slope = dot(plan.dofs[k].kind == DofKind::along_axis ? slope.shift : slope.turn, figure.axis(k));
+        if (with_springs && plan.sprung) c.slope = c.slope + spring_slopes_[k];
+        const T share = c.slope * c.inverse;
+        slope.turn -= c.turn * share;
+        slope.shift -= c.shift * share;
+      }
+      if (link.parent < 0) continue;
+      const V3<T> arm = figure.placed(static_cast<int>(i)).centre - figure.placed(link.parent).centre;
+      slopes_[static_cast<std::size_t>(link.parent)] += {slope.turn + cross(arm, slope.shift), slope.shift};
+    }
+    for (std::size_t i = 0; i < plan.links.size(); ++i) {
+      const Link& link = plan.links[i];
+      if (link.kind == LinkKind::floating) continue;
+      carry(link, i, figure);
+      for (int j = link.dof; j < link.dof + link.dofs; ++j) {
+        const auto k = static_cast<std::size_t>(j);
+        move(plan.dofs[k], figure.axis(k), share(k, motions_[i]), motions_[i]);
+      }
+    }
+  }
+
+  HWY_INLINE T along(const Tie& tie) const {
+    T sum(0.0);
+    for (std::size_t p = tie.begin; p < tie.end; ++p)
+      sum = sum + dot(parts_[p].row, motions_[static_cast<std::size_t>(parts_[p].link)]);
+    return sum;
+  }
+  HWY_INLINE void pull_at(const Tie& tie, const T& strength) {
+    for (std::size_t p = tie.begin; p < tie.end; ++p)
+      slopes_[static_cast<std::size_t>(parts_[p].link)] += parts_[p].row * strength;
+  }
+
+  // (tree + sum of weight row row') step = -slope: the ties' own pulls y solve (1/weight + row tree^-1 row') y = row x,
+  // with x the step of the tree alone; then they are slopes like any other.
+  void bring_in_ties(const Plan& plan, const Kinematics<T>& figure) {
+    const std::size_t n = ties_.size();
+    slopes_ = raw_slopes_;
+    respond(plan, figure, true);
+    for (std::size_t a = 0; a < n; ++a) tie_slopes_[a] = along(ties_[a]);
+    for (std::size_t b = 0; b < n; ++b) {
+      for (Wrench<T>& s : slopes_) s.clear();
+      pull_at(ties_[b], T(1.0));
+      respond(plan, figure, false);
+      for (std::size_t a = 0; a < n; ++a) tie_matrix_[a * n + b] = -along(ties_[a]);
+      tie_matrix_[b * n + b] = tie_matrix_[b * n + b] + T(1.0) / ties_[b].weight;
+    }
+    solve_ties(n);
+    slopes_ = raw_slopes_;
+    for (std::size_t a = 0; a < n; ++a) pull_at(ties_[a], tie_slopes_[a]);
+    respond(plan, figure, true);
+  }
+
+  // Cholesky, in place. A matrix of Newton's may have no root there; the least pivot keeps it finite.
+  void solve_ties(std::size_t n) {
+    const auto m = [&](std::size_t a, std::size_t b) -> T& { return tie_matrix_[a * n + b]; };
+    for (std::size_t k = 0; k < n; ++k) {
+      m(k, k) = T(1.0) / most(m(k, k), T(1e-30));
+      for (std::size_t a = k + 1; a < n; ++a) {
+        const T l = m(a, k) * m(k, k);
+        for (std::size_t b = k + 1; b <= a; ++b) m(a, b) = m(a, b) - l * m(b, k);
+        tie_slopes_[a] = tie_slopes_[a] - l * tie_slopes_[k];
+      }
+    }
+    for (std::size_t k = n; k-- > 0;) {
+      T sum = tie_slopes_[k];
+      for (std::size_t a = k + 1; a < n; ++a) sum = sum - m(a, k) * tie_slopes_[a];
+      tie_slopes_[k] = sum * m(k, k);
+    }
+  }
+
+  std::vector<Load<T>> loads_;
+  std::vector<Wrench<T>> slopes_, raw_slopes_, motions_;
+  std::vector<RootFactor<T>> roots_;
+  std::vector<Column> columns_;
+  std::vector<T> spring_slopes_;
+  std::vector<Tie> ties_;
+  std::vector<Part> parts_;
+  std::vector<T> tie_matrix_, tie_slopes_;
+};
+
+}  // namespace posed::springs::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

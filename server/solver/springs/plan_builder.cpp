@@ -1,0 +1,240 @@
+#include "server/solver/springs/plan_builder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "server/solver/springs/swing.h"
+
+namespace posed::springs {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// Effort of a rad: 1 for a joint that moves nothing else, this much more for one that moves the whole body.
+constexpr double kTrunkEffort = 30.0;
+constexpr double kRootTurnEffort = 300.0, kRootShiftEffort = 1000.0;
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+Dof about(const Vec3& axis) {
+  Dof dof;
+  const DofKind kinds[3] = {DofKind::about_x, DofKind::about_y, DofKind::about_z};
+  for (int k = 0; k < 3; ++k) {
+    if (std::abs(axis[k]) == 1.0) {
+      dof.kind = kinds[k];
+      dof.sign = axis[k];
+      return dof;
+    }
+  }
+  dof.kind = DofKind::about_axis;
+  dof.axis = axis;
+  dof.z_to_axis = shortest_arc(kZ, axis, kX);
+  return dof;
+}
+
+// The turn about `axis` that carries `from` to `to`, as far as it can.
+double angle_about(const Vec3& axis, const Vec3& from, const Vec3& to) {
+  const Vec3 f = from - axis * glm::dot(axis, from), t = to - axis * glm::dot(axis, to);
+  return std::atan2(glm::dot(axis, glm::cross(f, t)), glm::dot(f, t));
+}
+
+LinkKind kind_of(const Joint& joint) {
+  switch (joint.type) {
+    case JointType::free:
+      return LinkKind::floating;
+    case JointType::ball:
+      return joint.swing || joint.twist ? LinkKind::limb : joint.limits.empty() ? LinkKind::ball : LinkKind::axes;
+    case JointType::fixed:
+      return LinkKind::fixed;
+    case JointType::universal:
+    case JointType::hinge:
+    case JointType::prismatic:
+      break;
+  }
+  return LinkKind::axes;
+}
+
+void add_dofs(const Joint& joint, LinkKind kind, double effort, Plan& plan) {
+  const auto add = [&](Dof dof, const std::optional<Limit>& limit) {
+    dof.min = limit ? limit->min : -kInfinity;
+    dof.max = limit ? limit->max : kInfinity;
+    if (dof.kind != DofKind::of_root) dof.effort = effort;
+    plan.dofs.push_back(dof);
+    plan.least.push_back(dof.min), plan.most.push_back(dof.max);
+  };
+  const auto limit = [&](std::size_t k) { return k < joint.limits.size() ? joint.limits[k] : std::nullopt; };
+  Dof dof;
+  if (kind == LinkKind::floating) {
+    dof.kind = DofKind::of_root;
+    for (int k = 0; k < 6; ++k) dof.effort = k < 3 ? kRootShiftEffort : kRootTurnEffort, add(dof, std::nullopt);
+  } else if (kind == LinkKind::ball || kind == LinkKind::limb) {
+    dof.kind = DofKind::of_ball;
+    add(dof, std::nullopt), add(dof, std::nullopt), add(dof, joint.twist);
+  } else if (joint.type == JointType::ball) {
+    add(about(kX), limit(0)), add(about(kY), limit(1)), add(about(kZ), limit(2));
+  } else if (joint.type == JointType::prismatic) {
+    dof.kind = DofKind::along_axis;
+    dof.axis = joint.axes[0];
+    add(dof, limit(0));
+  } else if (kind == LinkKind::axes) {
+    for (std::size_t k = 0; k < joint.axes.size(); ++k) add(about(joint.axes[k]), limit(k));
+  }
+}
+
+void set_limb(const Segment& segment, Link& link) {
+  const double length = glm::length(segment.touch_point);
+  link.limb = length > 0.0 ? segment.touch_point / length : kZ;
+  const Joint& joint = segment.joint;
+  if (joint.twist) link.twist = *joint.twist;
+  link.swings_freely = !joint.swing;
+  if (!joint.swing) return;
+  link.swing = *joint.swing;
+  if (link.swing.center == kZero) link.swing.center = link.limb;
+}
+
+Quat swing_of(const Link& link, const Vec3& direction) {
+  return shortest_arc(link.limb, direction, perpendicular(link.limb, kX));
+}
+
+// The share of the body's mass that each joint moves; without masses, of its segments.
+std::vector<double> moved_shares(const BodyTree& tree) {
+  std::vector<double> moved(at(tree.size()));
+  double total = 0.0;
+  for (int i = 0; i < tree.size(); ++i) total += tree.segment(i).mass;
+  for (int i = 0; i < tree.size(); ++i) moved[at(i)] = total > 0.0 ? tree.segment(i).mass / total : 1.0 / tree.size();
+  for (int i = tree.size(); i-- > 1;) moved[at(tree.parent(i))] += moved[at(i)];
+  return moved;
+}
+
+}  // namespace
+
+Vec3 mass_point(const Segment& segment) {
+  return segment.touch_point * 0.5;
+}
+
+void add_figure(const BodyTree& tree, int figure, std::span<const char> active, Plan& plan,
+                std::vector<int>& link_of_segment) {
+  std::vector<char> needed(active.begin(), active.end());
+  for (int i = tree.size(); i-- > 1;) {
+    if (needed[at(i)]) needed[at(tree.parent(i))] = 1;
+  }
+  const std::vector<double> moved = moved_shares(tree);
+  plan.masses.resize(std::max(plan.masses.size(), at(figure + 1)), 0.0);
+  link_of_segment.assign(at(tree.size()), -1);
+  for (int i = 0; i < tree.size(); ++i) {
+    if (!needed[at(i)]) continue;
+    const Segment& segment = tree.segment(i);
+    const Joint& joint = segment.joint;
+    Link link;
+    link.kind = kind_of(joint);
+    link.parent = i == 0 ? -1 : link_of_segment[at(tree.parent(i))];
+    link.first = i == 0 ? static_cast<int>(plan.links.size()) : plan.links[at(link.parent)].first;
+    link.figure = figure;
+    link.segment = i;
+    link.offset = joint.parent_from_joint.position;
+    link.rotation = joint.parent_from_joint.rotation;
+    link.rotated = link.rotation != quat_identity();
+    link.dof = static_cast<int>(plan.dofs.size());
+    link.dofs = degrees_of_freedom(joint.type);
+    link.more = static_cast<int>(plan.more);
+    link.mass = segment.mass;
+    link.mass_point = mass_point(segment);
+    if (link.kind == LinkKind::limb) set_limb(segment, link);
+    plan.more += link.kind == LinkKind::ball || link.kind == LinkKind::limb ? 4
+                 : link.kind == LinkKind::floating                          ? 7
+                                                                            : 0;
+    add_dofs(joint, link.kind, 1.0 + kTrunkEffort * moved[at(i)], plan);
+    link_of_segment[at(i)] = static_cast<int>(plan.links.size());
+    plan.links.push_back(link);
+    plan.masses[at(figure)] += link.mass;
+  }
+  plan.springs.assign(plan.dofs.size(), {});
+  plan.spring_more.assign(plan.more, 0.0);
+}
+
+void read_q(const BodyTree& tree, int figure, const Plan& plan, std::span<const double> q, State& state) {
+  for (const Link& link : plan.links) {
+    if (link.figure != figure) continue;
+    const Joint& joint = tree.joint(link.segment);
+    const double* share = q.data() + tree.q_at(link.segment);
+    double* turns = state.turns.data() + link.dof;
+    double* more = state.more.data() + link.more;
+    const auto rotation = [&] { return quat_from_xyzw(std::span<const double>(share, 4)); };
+    if (link.kind == LinkKind::ball || link.kind == LinkKind::floating) {
+      std::copy_n(share, link.kind == LinkKind::ball ? 4 : 7, more);
+    } else if (link.kind == LinkKind::limb) {
+      const Vec3 d = rotation() * link.limb;
+      const Quat twist = glm::conjugate(swing_of(link, d)) * rotation();
+      double turn = 2.0 * std::atan2(glm::dot(Vec3(twist.x, twist.y, twist.z), link.limb), twist.w);
+      if (turn > M_PI) turn -= 2.0 * M_PI;
+      if (turn <= -M_PI) turn += 2.0 * M_PI;
+      more[0] = d.x, more[1] = d.y, more[2] = d.z, more[3] = 0.0;
+      turns[0] = turns[1] = 0.0, turns[2] = turn;
+    } else if (joint.type == JointType::universal) {
+      turns[0] = angle_about(joint.axes[0], joint.axes[1], rotation() * joint.axes[1]);
+      turns[1] = angle_about(joint.axes[1], glm::conjugate(rotation()) * joint.axes[0], joint.axes[0]);
+    } else if (joint.type == JointType::ball) {
+      // Rx Ry Rz
+      const Vec3 z = rotation() * kZ, x = glm::conjugate(rotation()) * kX;
+      turns[0] = std::atan2(-z.y, z.z);
+      turns[1] = std::asin(std::clamp(z.x, -1.0, 1.0));
+      turns[2] = std::atan2(-x.y, x.x);
+    } else if (link.dofs == 1) {
+      turns[0] = share[0];
+    }
+  }
+}
+
+void write_q(const BodyTree& tree, int figure, const Plan& plan, const State& state, std::span<double> q) {
+  for (const Link& link : plan.links) {
+    if (link.figure != figure) continue;
+    const Joint& joint = tree.joint(link.segment);
+    double* share = q.data() + tree.q_at(link.segment);
+    const double* turns = state.turns.data() + link.dof;
+    const double* more = state.more.data() + link.more;
+    const auto put = [](const Quat& r, double* to) {
+      const Quat before = quat_from_xyzw(std::span<const double>(to, 4));
+      const auto v = xyzw(same_sign(before, glm::normalize(r)));
+      std::copy(v.begin(), v.end(), to);
+    };
+    const auto quat = [&](int first) { return quat_from_xyzw(std::span<const double>(more + first, 4)); };
+    if (link.kind == LinkKind::floating) {
+      std::copy_n(more, 3, share);
+      put(quat(3), share + 3);
+    } else if (link.kind == LinkKind::ball) {
+      put(quat(0), share);
+    } else if (link.kind == LinkKind::limb) {
+      put(swing_of(link, {more[0], more[1], more[2]}) * quat_about(link.limb, turns[2]), share);
+    } else if (joint.type == JointType::universal) {
+      put(quat_about(joint.axes[0], turns[0]) * quat_about(joint.axes[1], turns[1]), share);
+    } else if (joint.type == JointType::ball) {
+      put(quat_about(kX, turns[0]) * quat_about(kY, turns[1]) * quat_about(kZ, turns[2]), share);
+    } else if (link.dofs == 1) {
+      share[0] = turns[0];
+    }
+  }
+}
+
+void confine(const Plan& plan, State& state) {
+  for (const Link& link : plan.links) {
+    for (std::size_t j = at(link.dof); j < at(link.dof + link.dofs); ++j) {
+      double& turn = state.turns[j];
+      // A turn that is out by whole turns is brought home first.
+      const Dof& dof = plan.dofs[j];
+      const bool turns = dof.kind != DofKind::along_axis && dof.kind != DofKind::of_root;
+      if (turns && (turn < dof.min || turn > dof.max) && std::isfinite(dof.min) && std::isfinite(dof.max)) {
+        const double middle = 0.5 * (dof.min + dof.max);
+        turn -= 2.0 * M_PI * std::round((turn - middle) / (2.0 * M_PI));
+      }
+      turn = std::clamp(turn, plan.least[j], plan.most[j]);
+    }
+    if (link.kind != LinkKind::limb) continue;
+    double* more = state.more.data() + link.more;
+    const Vec3 d = inside_swing(link, {more[0], more[1], more[2]});
+    more[0] = d.x, more[1] = d.y, more[2] = d.z;
+  }
+}
+
+}  // namespace posed::springs

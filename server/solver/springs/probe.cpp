@@ -1,0 +1,123 @@
+#include "server/solver/springs/probe.h"
+
+#include "server/solver/springs/pull-inl.h"
+
+namespace posed::springs {
+
+namespace here = HWY_NAMESPACE;
+
+struct Probe::Inside {
+  here::Kinematics<double> figure;
+  here::Newton<double> newton;
+  here::Steps<double> at;
+  std::vector<here::Wrench<double>> wrenches;
+
+  // Hands the wrenches of all links down to the roots.
+  void collect(const Plan& plan, std::span<double> slope) {
+    for (std::size_t i = plan.links.size(); i-- > 0;) {
+      const Link& link = plan.links[i];
+      const here::Wrench<double>& w = wrenches[i];
+      const auto first = static_cast<std::size_t>(link.dof);
+      if (link.kind == LinkKind::floating) {
+        const double parts[6] = {w.shift.x, w.shift.y, w.shift.z, w.turn.x, w.turn.y, w.turn.z};
+        for (std::size_t k = 0; k < 6; ++k) slope[first + k] += parts[k];
+      } else {
+        for (std::size_t j = first; j < first + static_cast<std::size_t>(link.dofs); ++j) {
+          slope[j] += here::dot(plan.dofs[j].kind == DofKind::along_axis ? w.shift : w.turn, figure.axis(j));
+        }
+      }
+      if (link.parent < 0) continue;
+      const auto arm = figure.placed(static_cast<int>(i)).centre - figure.placed(link.parent).centre;
+      wrenches[static_cast<std::size_t>(link.parent)] += {w.turn + here::cross(arm, w.shift), w.shift};
+    }
+  }
+};
+
+Probe::Probe() : inside_(std::make_unique<Inside>()) {}
+Probe::~Probe() = default;
+
+void Probe::prepare(const Plan& plan) {
+  inside_->figure.resize(plan);
+  inside_->newton.resize(plan, 1, plan.links.size() + plan.supports.size());
+  inside_->at.resize(plan);
+  inside_->wrenches.resize(plan.links.size());
+}
+
+void Probe::place(const Plan& plan, const State& state) {
+  std::copy(state.turns.begin(), state.turns.end(), inside_->at.turns.begin());
+  std::copy(state.more.begin(), state.more.end(), inside_->at.more.begin());
+  inside_->figure.place(plan, inside_->at);
+}
+
+TermErrors Probe::errors(const Plan& plan, const Term& term) const {
+  TermErrors result;
+  if (term.kind == TermKind::balance) {
+    result.count = 1;
+    result.error[0] = here::stand(plan, term, inside_->figure).error;
+    return result;
+  }
+  here::Base<double> base;
+  if (term.base >= 0) base.placed = &inside_->figure.placed(term.base);
+  here::Errors<double> errors;
+  here::measure(term, inside_->figure.placed(term.link), base, errors);
+  for (int k = 0; k < errors.count; ++k) {
+    if (k != errors.stiff_only) result.error[static_cast<std::size_t>(result.count++)] = errors.error[k];
+  }
+  return result;
+}
+
+void Probe::pull(const Plan& plan, const Term& term, std::span<double> slope) {
+  Inside& in = *inside_;
+  in.newton.clear();
+  Term unshifted = term;
+  unshifted.shift = {0.0, 0.0, 0.0};
+  here::pull_term(plan, unshifted, in.figure, in.newton);
+  for (std::size_t i = 0; i < plan.links.size(); ++i) in.wrenches[i] = in.newton.load(static_cast<int>(i)).slope;
+  in.collect(plan, slope);
+}
+
+void Probe::pull_springs(const Plan& plan, const State&, std::span<double> slope) {
+  Inside& in = *inside_;
+  here::pull_posture(plan, in.at, in.figure, in.newton);
+  for (std::size_t j = 0; j < plan.dofs.size(); ++j) slope[j] += in.newton.spring_slope(j);
+}
+
+Vec3 Probe::point(int link, const Vec3& point) const {
+  const auto& placed = inside_->figure.placed(link);
+  const auto p = placed.centre + placed.rotation * here::V3<double>(point);
+  return {p.x, p.y, p.z};
+}
+
+Transform Probe::link(int link) const {
+  const auto& p = inside_->figure.placed(link);
+  const auto vec = [](const here::V3<double>& v) { return Vec3(v.x, v.y, v.z); };
+  return {vec(p.centre),
+          glm::normalize(glm::quat_cast(glm::dmat3(vec(p.rotation.x), vec(p.rotation.y), vec(p.rotation.z))))};
+}
+
+Vec3 Probe::centre_of_mass(const Plan& plan, int figure) const {
+  Vec3 sum = kZero;
+  for (std::size_t i = 0; i < plan.links.size(); ++i) {
+    const Link& link = plan.links[i];
+    if (link.figure != figure || link.mass <= 0.0) continue;
+    sum += point(static_cast<int>(i), link.mass_point) * (link.mass / plan.masses[static_cast<std::size_t>(figure)]);
+  }
+  return sum;
+}
+
+Probe::Bound Probe::held(const Plan& plan, const State& state, std::size_t dof, double slope) const {
+  constexpr double kNear = 1e-7;
+  if (slope < 0.0 && state.turns[dof] >= plan.most[dof] - kNear) return Bound::max;
+  if (slope > 0.0 && state.turns[dof] <= plan.least[dof] + kNear) return Bound::min;
+  for (std::size_t i = 0; i < plan.links.size(); ++i) {
+    const Link& link = plan.links[i];
+    if (link.kind != LinkKind::limb) continue;
+    const auto& swinging = inside_->figure.swinging(i);
+    const auto first = static_cast<std::size_t>(link.dof);
+    if (dof == first && swinging.on_edge > 0.0 && slope < 0.0) return Bound::swing;
+    if (dof == first + 1 && swinging.corner * slope < 0.0) return Bound::swing;
+  }
+  return Bound::none;
+}
+
+}  // namespace posed::springs

@@ -1,0 +1,106 @@
+// All goals pull at a placed figure: the cost, and what they add to the segments' loads.
+#if defined(POSED_SPRINGS_PULL_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef POSED_SPRINGS_PULL_INL_H_
+#undef POSED_SPRINGS_PULL_INL_H_
+#else
+#define POSED_SPRINGS_PULL_INL_H_
+#endif
+
+#include "server/solver/goals/aim-inl.h"
+#include "server/solver/goals/balance-inl.h"
+#include "server/solver/goals/distance-inl.h"
+#include "server/solver/goals/line-inl.h"
+#include "server/solver/goals/orientation-inl.h"
+#include "server/solver/goals/plane-inl.h"
+#include "server/solver/goals/position-inl.h"
+#include "server/solver/goals/posture-inl.h"
+#include "server/solver/springs/newton-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace posed::springs::HWY_NAMESPACE {
+
+template <class T>
+HWY_INLINE void measure(const Term& term, const Placed<T>& segment, const Base<T>& base, Errors<T>& out) {
+  switch (term.kind) {
+    case TermKind::point:
+      return measure_position(term, segment, base, out);
+    case TermKind::turn:
+      return measure_orientation(term, segment, base, out);
+    case TermKind::aim:
+      return measure_aim(term, segment, base, out);
+    case TermKind::plane:
+      return measure_plane(term, segment, base, out);
+    case TermKind::line:
+      return measure_line(term, segment, base, out);
+    case TermKind::distance:
+      return measure_distance(term, segment, base, out);
+    case TermKind::balance:
+      return;
+  }
+}
+
+// The part of an error that counts.
+template <class T>
+HWY_INLINE T sensed(Sense sense, const T& error) {
+  const T zero(0.0);
+  return sense == Sense::equal ? error : sense == Sense::at_least ? least(error, zero) : most(error, zero);
+}
+
+template <class T>
+HWY_INLINE T pull_term(const Plan& plan, const Term& term, const Kinematics<T>& figure, Newton<T>& newton) {
+  const T weight(term.weight), zero(0.0);
+  if (term.kind == TermKind::balance) return pull_balance(plan, term, figure, newton);
+  const Placed<T>& segment = figure.placed(term.link);
+  Load<T>& load = newton.load(term.link);
+  if (term.kind == TermKind::point && term.base < 0) {
+    const V3<T> arm = segment.rotation * V3<T>(term.point);
+    const V3<T> miss = segment.centre + arm - V3<T>(term.place + Vec3(term.shift[0], term.shift[1], term.shift[2]));
+    const V3<T> force = miss * weight;
+    load.add_point(arm, force, weight);
+    return dot(force, miss);
+  }
+  Base<T> base;
+  if (term.base >= 0) base.placed = &figure.placed(term.base);
+  Errors<T> errors;
+  measure(term, segment, base, errors);
+  T cost(0.0);
+  V3<T> pull{zero, zero, zero};
+  for (int i = 0; i < errors.count; ++i) {
+    const bool stiff_only = i == errors.stiff_only;
+    const T error =
+        stiff_only ? zero : sensed(term.sense, errors.error[i] - T(term.shift[static_cast<std::size_t>(i)]));
+    const T force = error * weight;
+    cost = cost + force * error;
+    // An error that does not count is not stiff either.
+    const T stiffness = term.sense == Sense::equal ? weight : select(magnitude(error) > zero, weight, T(1e-300));
+    const Wrench<T>& row = errors.row[i];
+    if (term.base < 0) {
+      load.add_row(row, force, stiffness);
+      pull += row.shift * force;
+      continue;
+    }
+    const V3<T> apart = segment.centre - figure.placed(term.base).centre;
+    const Wrench<T> back{-(row.turn + cross(apart, row.shift)), -row.shift};
+    load.slope += row * force;
+    newton.load(term.base).slope += back * force;
+    newton.add_tie(stiffness);
+    newton.add_part(term.link, row);
+    newton.add_part(term.base, back);
+  }
+  if (term.base < 0 && errors.is_force) load.add_second_order(errors.arm, pull);
+  return cost;
+}
+
+template <class T>
+T pull(const Plan& plan, const Steps<T>& at, const Kinematics<T>& figure, Newton<T>& newton) {
+  newton.clear();
+  T cost(0.0);
+  for (const Term& term : plan.terms) cost = cost + pull_term(plan, term, figure, newton);
+  if (plan.sprung) cost = cost + pull_posture(plan, at, figure, newton);
+  return cost;
+}
+
+}  // namespace posed::springs::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

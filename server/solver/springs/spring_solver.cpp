@@ -1,0 +1,299 @@
+#include "server/solver/springs/spring_solver.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "server/solver/kinematics.h"
+#include "server/solver/springs/explain.h"
+#include "server/solver/springs/plan_builder.h"
+#include "server/solver/springs/starts.h"
+#include "server/solver/springs/terms.h"
+
+namespace posed {
+
+using springs::State;
+using springs::Term;
+using springs::Tuning;
+
+namespace {
+
+constexpr double kFar = 0.02;         // m, weighted RMS: a start from farther away takes the long way (go_far)
+constexpr double kReachedRms = 1e-3;  // m
+constexpr double kClearlyBetter = 0.7;
+constexpr std::size_t kFewRows = 12;  // so few errors seldom have more than one valley: one start is tried first
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+}  // namespace
+
+// What the layout depends on.
+struct SpringSolver::Signature {
+  bool pulls = false;
+  std::size_t kind = 0;
+  int figure = 0, segment = 0, base_figure = 0, base_segment = -1, priority = 0;
+  std::vector<int> others;  // segments of the other end or of the support; joints
+
+  static std::vector<int> others_of(const SpringGoal& goal) {
+    std::vector<int> all;
+    if (const auto* d = std::get_if<DistanceSpring>(&goal.spring)) all.push_back(d->to.segment);
+    if (const auto* p = std::get_if<PostureSpring>(&goal.spring)) all = p->joints;
+    if (const auto* b = std::get_if<BalanceSpring>(&goal.spring)) {
+      for (const AttachedPoint& a : b->support) all.push_back(a.segment);
+    }
+    return all;
+  }
+  explicit Signature(const SpringGoal& goal)
+      : pulls(posed::pulls(goal)),
+        kind(goal.spring.index()),
+        figure(goal.figure),
+        segment(goal.at.segment),
+        base_figure(goal.base_figure),
+        base_segment(goal.base_segment),
+        priority(goal.priority),
+        others(others_of(goal)) {}
+
+  bool fits(const SpringGoal& goal) const {
+    if (pulls != posed::pulls(goal)) return false;
+    if (!pulls) return true;
+    if (kind != goal.spring.index() || figure != goal.figure || segment != goal.at.segment ||
+        base_figure != goal.base_figure || base_segment != goal.base_segment || priority != goal.priority) {
+      return false;
+    }
+    if (const auto* d = std::get_if<DistanceSpring>(&goal.spring)) return others[0] == d->to.segment;
+    if (const auto* p = std::get_if<PostureSpring>(&goal.spring)) return others == p->joints;
+    if (const auto* b = std::get_if<BalanceSpring>(&goal.spring)) {
+      return std::equal(others.begin(), others.end(), b->support.begin(), b->support.end(),
+                        [](int held, const AttachedPoint& a) { return held == a.segment; });
+    }
+    return true;
+  }
+};
+
+SpringSolver::SpringSolver(std::vector<std::shared_ptr<const BodyTree>> figures)
+    : figures_(std::move(figures)),
+      kernel_(springs::make_kernel()),
+      explainer_(std::make_unique<springs::Explainer>()),
+      link_of_segment_(figures_.size()) {}
+
+SpringSolver::SpringSolver(std::shared_ptr<const BodyTree> figure)
+    : SpringSolver(std::vector<std::shared_ptr<const BodyTree>>{std::move(figure)}) {}
+
+SpringSolver::~SpringSolver() = default;
+
+void SpringSolver::prepare(std::span<const SpringGoal> goals) {
+  const auto fits = [](const Signature& s, const SpringGoal& g) { return s.fits(g); };
+  if (prepared_ && std::equal(signatures_.begin(), signatures_.end(), goals.begin(), goals.end(), fits)) return;
+  signatures_.clear();
+  for (const SpringGoal& goal : goals) signatures_.emplace_back(goal);
+  plan_ = {};
+  terms_.clear();
+  levels_.clear();
+  std::vector<std::vector<char>> active;
+  for (const auto& figure : figures_) active.emplace_back(at(figure->size()), 0);
+  for (const SpringGoal& goal : goals) {
+    if (pulls(goal)) springs::mark_active(goal, figures_, active);
+  }
+  for (std::size_t f = 0; f < figures_.size(); ++f) {
+    springs::add_figure(*figures_[f], static_cast<int>(f), active[f], plan_, link_of_segment_[f]);
+  }
+  for (std::size_t g = 0; g < goals.size(); ++g) {
+    if (!pulls(goals[g])) continue;
+    springs::add_terms(goals[g], static_cast<int>(g), figures_, link_of_segment_, plan_, terms_);
+    levels_.push_back(goals[g].priority);
+  }
+  std::sort(levels_.begin(), levels_.end());
+  levels_.erase(std::unique(levels_.begin(), levels_.end()), levels_.end());
+  plan_.terms = terms_;
+  for (State* state : {&state_, &start_, &kept_, &posture_}) springs::resize(plan_, *state);
+  own_springs_ = plan_.springs;
+  own_more_ = plan_.spring_more;
+  posture_q_.clear();
+  for (const auto& figure : figures_) posture_q_.push_back(figure->rest());
+  starts_ = springs::make_starts(plan_);
+  lanes_ = starts_;
+  held_.resize(terms_.size());
+  kernel_->prepare(plan_);
+  explainer_->prepare(plan_, goals.size());
+  prepared_ = true;
+}
+
+void SpringSolver::solve(std::span<const SpringGoal> goals, const SpringOptions& options, const Stop& should_stop,
+                         SpringPose& out) {
+  prepare(goals);
+  out.report = {};
+  out.world_from_segment.resize(figures_.size());
+  for (std::size_t f = 0; f < figures_.size(); ++f) {
+    assert(static_cast<int>(out.q[f].size()) == figures_[f]->q_size());
+    normalise_quaternions(*figures_[f], out.q[f]);
+    springs::read_q(*figures_[f], static_cast<int>(f), plan_, out.q[f], state_);
+  }
+  set_bounds(options);
+  springs::confine(plan_, state_);
+  pin_roots(goals);
+  set_terms(goals);
+  set_springs(goals);
+  start_ = state_;
+
+  if (!plan_.links.empty()) {
+    if (levels_.size() > 1)
+      balance_levels(goals, options, should_stop, out.report);
+    else
+      balance(options, should_stop, out.report);
+  }
+
+  for (std::size_t f = 0; f < figures_.size(); ++f) {
+    springs::write_q(*figures_[f], static_cast<int>(f), plan_, state_, out.q[f]);
+    out.world_from_segment[f].resize(at(figures_[f]->size()));
+    forward_kinematics(*figures_[f], out.q[f], out.world_from_segment[f]);
+  }
+  explain(goals, options, out);
+}
+
+void SpringSolver::explain(std::span<const SpringGoal> goals, const SpringOptions& options, SpringPose& out) {
+  out.report.cost = cost_;
+  if (!options.explain) return;
+  std::copy(terms_.begin(), terms_.end(), plan_.terms.begin());
+  out.report.balance_error = explainer_->explain(plan_, goals, link_of_segment_, state_, out.goals);
+  out.report.cost = 0.0;
+  for (std::size_t g = 0; g < goals.size(); ++g) out.report.cost += explainer_->cost(g);
+}
+
+// A stream's bound on the joints' speed is a bound like any other.
+void SpringSolver::set_bounds(const SpringOptions& options) {
+  for (std::size_t j = 0; j < plan_.dofs.size(); ++j) {
+    const springs::Dof& dof = plan_.dofs[j];
+    plan_.least[j] = dof.min, plan_.most[j] = dof.max;
+    if (dof.kind == springs::DofKind::of_root) continue;
+    const double turn = std::clamp(state_.turns[j], dof.min, dof.max);
+    plan_.least[j] = std::max(dof.min, turn - options.most_turn);
+    plan_.most[j] = std::min(dof.max, turn + options.most_turn);
+  }
+}
+
+void SpringSolver::set_terms(std::span<const SpringGoal> goals) {
+  std::size_t next = 0;
+  for (const SpringGoal& goal : goals) {
+    if (pulls(goal)) next += springs::update_terms(goal, figures_, std::span(terms_).subspan(next));
+  }
+  std::copy(terms_.begin(), terms_.end(), plan_.terms.begin());
+}
+
+// A root that is pinned whole does not move at all; it stands where its pin says.
+void SpringSolver::pin_roots(std::span<const SpringGoal> goals) {
+  for (springs::Link& link : plan_.links) link.pinned = false;
+  for (const SpringGoal& goal : goals) {
+    const auto* pose = std::get_if<PoseSpring>(&goal.spring);
+    if (!pose || goal.priority != kPinPriority || goal.at.segment != 0 || goal.base_segment >= 0 || !pulls(goal))
+      continue;
+    springs::Link& link = plan_.links[at(link_of_segment_[at(goal.figure)][0])];
+    if (link.kind != springs::LinkKind::floating) continue;
+    link.pinned = true;
+    const Quat rotation = glm::normalize(goal.world_from_base.rotation * pose->rotation);
+    const Vec3 place = goal.world_from_base * pose->position - rotation * goal.at.point;
+    const auto q = xyzw(rotation);
+    double* more = state_.more.data() + link.more;
+    more[0] = place.x, more[1] = place.y, more[2] = place.z;
+    std::copy(q.begin(), q.end(), more + 3);
+  }
+}
+
+double SpringSolver::weights() const {
+  double sum = 0.0;
+  for (const Term& term : plan_.terms) sum += term.weight;
+  for (std::size_t j = 0; plan_.sprung && j < plan_.springs.size(); ++j) sum += plan_.springs[j].weight;
+  return sum;
+}
+
+Tuning SpringSolver::tuning(const SpringOptions& options) const {
+  const double sum = weights(), step = 0.3 * options.accuracy, rest = std::max(0.2 * options.accuracy, 1e-10);
+  Tuning t;
+  t.by_effort = true;
+  t.relative_gain = options.accuracy > 0.0 ? 1e-6 : 1e-14;
+  t.least_gain = sum * step * step;
+  t.enough = sum * rest * rest;
+  t.least_cost = sum * 1e-12;
+  t.iterations = options.iterations;
+  t.most_turn = 1.0;
+  return t;
+}
+
+springs::Answer SpringSolver::descend(const Tuning& tuning, const Stop& should_stop, SolveReport& report) {
+  const springs::Answer answer = kernel_->descend(plan_, tuning, should_stop, state_);
+  report.iterations += answer.iterations;
+  report.status = answer.stopped   ? SolveStatus::deadline
+                  : answer.at_rest ? SolveStatus::converged
+                                   : SolveStatus::stalled;
+  cost_ = answer.cost;
+  return answer;
+}
+
+void SpringSolver::balance(const SpringOptions& options, const Stop& should_stop, SolveReport& report) {
+  const double sum = weights();
+  if (options.cold) return search(options, should_stop, report);
+  Tuning near = tuning(options);
+  near.most_start = sum * kFar * kFar;
+  if (!descend(near, should_stop, report).too_far) return;
+  go_far(options, should_stop, report);
+  if (options.explore && report.status != SolveStatus::deadline && cost_ > sum * kReachedRms * kReachedRms)
+    explore(options, should_stop, report);
+}
+
+// A goal far away: first held back to the start pose by weak springs, so that of all ways the shortest is found, with
+// limbs before the trunk and the trunk before the root. Then without them, from where that led.
+void SpringSolver::go_far(const SpringOptions& options, const Stop& should_stop, SolveReport& report) {
+  Tuning t = tuning(options);
+  springs::bend_straight_limbs(plan_, figures_, state_);
+  hold_to_start();
+  Tuning held = t;
+  held.enough = 0.0, held.relative_gain = 1e-4;
+  held.iterations = std::min(options.iterations, 60);
+  descend(held, should_stop, report);
+  let_go_of_start();
+  if (report.status != SolveStatus::deadline) descend(t, should_stop, report);
+}
+
+// From many starts at once.
+void SpringSolver::search(const SpringOptions& options, const Stop& should_stop, SolveReport& report) {
+  const double sum = weights(), reached = sum * kReachedRms * kReachedRms;
+  Tuning t = tuning(options);
+  t.by_effort = false;
+  t.align = true;
+  std::size_t rows = 0;
+  for (const Term& term : plan_.terms) rows += term.kind == springs::TermKind::plane ? 1 : 3;
+  if (rows <= kFewRows) {
+    Tuning one = t;
+    one.patience = 5;
+    kept_ = state_;
+    if (descend(one, should_stop, report).stopped || cost_ <= reached) return;
+    std::swap(kept_, state_);
+  }
+  springs::place_starts(plan_, state_, starts_, lanes_);
+  Tuning many = t;
+  many.enough = sum * 1e-8;
+  many.patience = 5;
+  const springs::Answer found = kernel_->search(plan_, many, should_stop, lanes_);
+  report.iterations += found.iterations;
+  state_ = lanes_[0];
+  Tuning polish = tuning(options);
+  polish.by_effort = false;
+  polish.damping = 1e-3;
+  descend(polish, should_stop, report);
+  if (found.stopped) report.status = SolveStatus::deadline;
+}
+
+void SpringSolver::explore(const SpringOptions& options, const Stop& should_stop, SolveReport& report) {
+  kept_ = state_;
+  const double cost = cost_;
+  const SolveStatus status = report.status;
+  search(options, should_stop, report);
+  report.branch_changed = cost_ < kClearlyBetter * cost;
+  if (report.branch_changed) return;
+  state_ = kept_;
+  cost_ = cost;
+  report.status = status;
+}
+
+}  // namespace posed
