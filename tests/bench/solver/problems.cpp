@@ -1,5 +1,6 @@
 #include "tests/bench/solver/problems.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "common/goal.h"
@@ -80,6 +81,12 @@ ProblemSet stream_set(const HingeFigure& figure, int frames) {
 }
 
 }  // namespace
+
+bool same_points(const Problem& a, const Problem& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const PointGoal& x, const PointGoal& y) {
+    return x.at.segment == y.at.segment && x.at.point == y.at.point && x.weight == y.weight;
+  });
+}
 
 std::vector<ProblemSet> problem_sets(const HingeFigure& figure, std::uint64_t seed, int count, int frames) {
   std::vector<AttachedPoint> points;

@@ -27,6 +27,9 @@ struct PointGoal {
 
 using Problem = std::vector<PointGoal>;
 
+// The same but for their targets, as the problems of one set are: a solver that is built for its points serves both.
+bool same_points(const Problem& a, const Problem& b);
+
 struct ProblemSet {
   std::string name;
   bool stream = false;     // each problem starts from the answer before
