@@ -5,13 +5,13 @@
 // belongs to a goal. Columns: the root's x y z, its rotation vector in the world, the hinges.
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <vector>
 
 #include "tests/bench/solver/contestant.h"
+#include "tests/bench/solver/small_matrices.h"
 #include "tests/bench/solver/random.h"
 
 namespace posed::test {
@@ -46,7 +46,7 @@ class DualLm {
     best_ = x;
     for (int start = 1; start < kStarts && best > solved_cost_; ++start) {
       if (stream && best <= 100.0 * solved_cost_) break;  // what the judge takes
-      other_start(random, x);
+      other_start(start, random, x);
       const double cost = descend(x, kDescent);
       if (cost < best) best = cost, best_ = x;
     }
@@ -114,7 +114,7 @@ class DualLm {
         jacobian_.col(6 + h).setZero();
       }
     }
-    gram_.noalias() = jacobian_ * jacobian_.transpose();
+    gram_of(jacobian_, gram_);
   }
 
   // tried_ = x and the damped step. Joints that would leave their range go to the bound, and the rest is solved again.
@@ -125,16 +125,19 @@ class DualLm {
     std::array<bool, kHinges> pinned{};
     Columns move;
     for (int round = 0;; ++round) {
-      move.noalias() = jacobian_.transpose() * gram.llt().solve(wanted);
+      Gram factor = gram;
+      Rows multipliers = wanted;
+      factor_and_solve(factor, multipliers);
+      move.noalias() = jacobian_.transpose() * multipliers;
       if (round == kPinRounds) break;
       bool found = false;
       for (int h = 0; h < kHinges; ++h) {
         const double angle = x[static_cast<std::size_t>(kRootSize + h)], next = angle + move[6 + h];
         if (pinned[static_cast<std::size_t>(h)] || (next >= min_[h] && next <= max_[h])) continue;
-        const auto column = jacobian_.col(6 + h);
+        const Rows column = jacobian_.col(6 + h);
         bound_[h] = next < min_[h] ? min_[h] : max_[h];
         wanted -= column * (bound_[h] - angle);
-        gram -= column * column.transpose();
+        for (int k = 0; k < kRows; ++k) gram.col(k) -= column[k] * column;
         pinned[static_cast<std::size_t>(h)] = found = true;
       }
       if (!found) break;
@@ -158,9 +161,14 @@ class DualLm {
     std::copy(turned.begin(), turned.end(), out.begin() + 3);
   }
 
-  // The root where it was given with another heading, the hinges anywhere in the inner part of their ranges.
-  void other_start(Random& random, std::vector<double>& x) {
+  // The second start is the middle of all ranges. From the third on: another heading, and the hinges anywhere in the
+  // inner part of their ranges.
+  void other_start(int start, Random& random, std::vector<double>& x) {
     x = given_;
+    if (start == 1) {
+      std::copy(std::begin(middle_), std::end(middle_), x.begin() + kRootSize);
+      return;
+    }
     turn_root(given_, {0.0, 0.0, random.uniform(-1.5, 1.5)}, x);
     for (int h = 0; h < kHinges; ++h) {
       x[static_cast<std::size_t>(kRootSize + h)] = middle_[h] + kInnerRange * random.uniform(-half_[h], half_[h]);

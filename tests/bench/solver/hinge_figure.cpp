@@ -17,6 +17,8 @@ std::vector<Vec3> axes_of(const Joint& joint) {
   throw std::runtime_error("the bench knows ball and universal joints only, not that of " + joint.name);
 }
 
+constexpr double kFromStartPose = 0.4;  // of the way to the middle of a hinge's range
+
 double wrapped(double angle) {
   return std::remainder(angle, 2.0 * M_PI);
 }
@@ -75,7 +77,9 @@ HingeFigure::HingeFigure(BodyTree tree) : tree_(std::move(tree)) {
 
   start_ = from_tree_q(start_pose(tree_));
   for (std::size_t h = 0; h < hinges_.size(); ++h) {
-    start_[kRootSize + h] = std::clamp(start_[kRootSize + h], hinges_[h].min, hinges_[h].max);
+    if (!hinges_[h].limited()) continue;
+    double& angle = start_[kRootSize + h];
+    angle += kFromStartPose * (0.5 * (hinges_[h].min + hinges_[h].max) - angle);
   }
 }
 
