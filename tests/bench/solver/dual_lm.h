@@ -66,7 +66,7 @@ class DualLm {
     double gain;
     int window, most;
   };
-  static constexpr Patience kDescent{0.30, 5, 100}, kPolish{1e-4, 5, 300};
+  static constexpr Patience kDescent{0.40, 4, 100}, kPolish{1e-4, 5, 300};
 
   const PointGoal& goal(int g) const { return (*problem_)[static_cast<std::size_t>(g)]; }
 
@@ -114,7 +114,7 @@ class DualLm {
         jacobian_.col(6 + h).setZero();
       }
     }
-    gram_of(jacobian_, gram_);
+    lower_gram(jacobian_, gram_);
   }
 
   // tried_ = x and the damped step. Joints that would leave their range go to the bound, and the rest is solved again.
@@ -185,7 +185,7 @@ class DualLm {
   std::vector<double> start_, given_ = start_, best_ = start_, tried_ = start_;
   double min_[kHinges], max_[kHinges], bound_[kHinges], middle_[kHinges], half_[kHinges];
   alignas(64) Jacobian jacobian_;
-  alignas(64) Gram gram_;
+  alignas(64) Gram gram_ = Gram::Zero();  // its lower triangle
   alignas(64) Rows residual_, base_residual_;
 };
 

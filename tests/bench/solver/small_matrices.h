@@ -3,33 +3,47 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
+#include <cstring>
+#include <utility>
 
 namespace posed::test {
 
-// gram = a a^T. Panels of four columns stay in registers.
-template <class Matrix, class Gram>
-void gram_of(const Matrix& a, Gram& gram) {
-  constexpr int kRows = Matrix::RowsAtCompileTime, kColumns = Matrix::ColsAtCompileTime;
-  constexpr int kPanel = kRows % 4 == 0 ? 4 : kRows;
-  const double* const from = a.data();
-  for (int first = 0; first < kRows; first += kPanel) {
-    double sum[kPanel][kRows] = {};
-    for (int k = 0; k < kColumns; ++k) {
-      const double* const column = from + k * kRows;
+// Four numbers that the compiler keeps in a register.
+using Four [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
+
+// The lower triangle of gram = a a^T, in panels of four columns whose sums stay in registers; what is above it is not
+// set.
+template <int First, class Matrix, class Gram>
+void gram_panel(const Matrix& a, Gram& gram) {
+  constexpr int kRows = Matrix::RowsAtCompileTime, kColumns = Matrix::ColsAtCompileTime, kFours = (kRows - First) / 4;
+  Four sum[4][kFours] = {};
+  for (int k = 0; k < kColumns; ++k) {
+    const double* const column = a.data() + k * kRows + First;
+    const auto* const fours = reinterpret_cast<const Four*>(column);
 #pragma GCC unroll 8
-      for (int j = 0; j < kPanel; ++j) {
-        const double factor = column[first + j];
-#pragma GCC unroll 24
-        for (int i = 0; i < kRows; ++i) sum[j][i] += factor * column[i];
-      }
+    for (int i = 0; i < kFours; ++i) {
+      const Four four = fours[i];
+#pragma GCC unroll 4
+      for (int j = 0; j < 4; ++j) sum[j][i] += column[j] * four;
     }
-    for (int j = 0; j < kPanel; ++j) {
-      for (int i = 0; i < kRows; ++i) gram(i, first + j) = sum[j][i];
-    }
+  }
+  for (int j = 0; j < 4; ++j) std::memcpy(gram.data() + (First + j) * kRows + First, sum[j], sizeof sum[j]);
+}
+
+template <class Matrix, class Gram>
+void lower_gram(const Matrix& a, Gram& gram) {
+  constexpr int kRows = Matrix::RowsAtCompileTime;
+  if constexpr (kRows % 4 == 0) {
+    [&]<int... panel>(std::integer_sequence<int, panel...>) {
+      (gram_panel<4 * panel>(a, gram), ...);
+    }(std::make_integer_sequence<int, kRows / 4>());
+  } else {
+    gram.noalias() = a.lazyProduct(a.transpose());
   }
 }
 
-// Cholesky of a symmetric positive definite `a` in place, and x = a^-1 x.
+// Cholesky of a symmetric positive definite `a` (its lower triangle) in place, and x = a^-1 x.
 template <class Gram, class Rows>
 void factor_and_solve(Gram& a, Rows& x) {
   constexpr int kRows = Gram::RowsAtCompileTime;
