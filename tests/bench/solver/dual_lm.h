@@ -1,8 +1,8 @@
-// Levenberg and Marquardt's method as a good engineer would write it over somebody's kinematics: dense, in the dual form
-// (3 rows a goal against 48 columns), limits by pinning, several starts. No allocation while it solves.
+// Levenberg and Marquardt's method as a good engineer would write it over somebody's kinematics: dense, in the dual
+// form (3 rows a goal against 48 columns), limits by pinning, several starts. No allocation while it solves.
 //
-// Kinematics: place(x) takes HingeFigure's coordinates; then point(goal) and fill(goal, jacobian, row, scale) write what
-// belongs to a goal. Columns: the root's x y z, its rotation vector in the world, the hinges.
+// Kinematics: place(x) takes HingeFigure's coordinates; then point(goal) and fill(goal, jacobian, row, scale) write
+// what belongs to a goal. Columns: the root's x y z, its rotation vector in the world, the hinges.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,12 +11,10 @@
 #include <vector>
 
 #include "tests/bench/solver/contestant.h"
-#include "tests/bench/solver/small_matrices.h"
 #include "tests/bench/solver/random.h"
+#include "tests/bench/solver/small_matrices.h"
 
 namespace posed::test {
-
-inline constexpr int kStarts = 8;  // as many as the contestant of the house
 
 template <int Goals, class Kinematics>
 class DualLm {

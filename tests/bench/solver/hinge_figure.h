@@ -1,8 +1,8 @@
 // The figure as all contestants can have it: a free root, then every other joint as a sequence of hinges with a range
 // each. Universal: R0(first axis) R1(second axis); ball: Rx(x) Ry(y) Rz(z), in the joint's frame.
 //
-// Its coordinates `x` are kRootSize + hinges values: the root's x y z (m) and qx qy qz qw in the world, then the hinges'
-// angles (rad), segment after segment.
+// Its coordinates `x` are kRootSize + hinges values: the root's x y z (m) and qx qy qz qw in the world, then the
+// hinges' angles (rad), segment after segment.
 #pragma once
 
 #include <array>
@@ -52,8 +52,9 @@ class HingeFigure {
   // The hinges between the root and a part, those of the part too.
   const std::vector<int>& hinges_above(int part) const { return above_[static_cast<std::size_t>(part)]; }
 
-  // The start pose with each hinge moved two fifths of the way to the middle of its range. As it is, with straight limbs
-  // at the end of their ranges, solvers of one start fail at four of five 8-goal problems and there is little to measure.
+  // The start pose with each hinge moved two fifths of the way to the middle of its range. As it is, with straight
+  // limbs at the end of their ranges, solvers of one start fail at four of five 8-goal problems and there is little to
+  // measure.
   const std::vector<double>& start() const { return start_; }
 
   // Does not allocate the second time.
@@ -62,8 +63,8 @@ class HingeFigure {
   // The widest any hinge is beyond its range, rad; 0 inside.
   double beyond_limits(std::span<const double> x) const;
 
-  // To q of the body tree and back. Backwards the turn of a universal joint that it cannot make is lost, and of a ball's
-  // two sets of angles it is the one that suits the limits.
+  // To q of the body tree and back. Backwards the turn of a universal joint that it cannot make is lost, and of a
+  // ball's two sets of angles it is the one that suits the limits.
   std::vector<double> tree_q(std::span<const double> x) const;
   std::vector<double> from_tree_q(std::span<const double> q) const;
 

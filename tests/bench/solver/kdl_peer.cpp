@@ -35,9 +35,9 @@ class Rig {
     // A KDL segment's frame is at its tip: each hinge's is the frame after its turn.
     for (std::size_t g = 0; g < problem.size(); ++g) {
       ends_.push_back(end_name(g));
-      tree_.addSegment(KDL::Segment(ends_.back(), KDL::Joint(KDL::Joint::None),
-                                    KDL::Frame(vector(problem[g].at.point))),
-                       tip_[static_cast<std::size_t>(problem[g].at.segment)]);
+      tree_.addSegment(
+          KDL::Segment(ends_.back(), KDL::Joint(KDL::Joint::None), KDL::Frame(vector(problem[g].at.point))),
+          tip_[static_cast<std::size_t>(problem[g].at.segment)]);
     }
     const auto joints = tree_.getNrOfJoints();
     KDL::JntArray low(joints), high(joints), fastest(joints);
@@ -93,7 +93,7 @@ class Rig {
   }
 
  private:
-  static constexpr double kDamping = 0.1;
+  static constexpr double kDamping = 0.03;
   static constexpr int kMostCalls = 300, kWindow = 20;
 
   static std::string hinge_name(std::size_t h) { return "hinge" + std::to_string(h); }

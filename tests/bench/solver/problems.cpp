@@ -69,7 +69,8 @@ ProblemSet stream_set(const HingeFigure& figure, int frames) {
   set.name = "e", set.stream = true;
   for (int n = 1; n <= frames; ++n) {
     const double t = n / kFrameRate;
-    const Vec3 way(0.20 * (1.0 - std::cos(3.0 * t)), 0.10 * (std::cos(2.0 * t) - 1.0), 0.25 * (1.0 - std::cos(2.5 * t)));
+    const Vec3 way(0.20 * (1.0 - std::cos(3.0 * t)), 0.10 * (std::cos(2.0 * t) - 1.0),
+                   0.25 * (1.0 - std::cos(2.5 * t)));
     Problem problem = {{hand, reached(placement, hand) + way, 10.0}};
     for (const char* held : {"left_foot", "right_foot", "lower_torso"}) {
       const AttachedPoint at = touch_point(tree, held);

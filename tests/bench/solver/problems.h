@@ -32,8 +32,8 @@ bool same_points(const Problem& a, const Problem& b);
 
 struct ProblemSet {
   std::string name;
-  bool stream = false;     // each problem starts from the answer before
-  bool reachable = true;   // in full; else it is the cost that counts
+  bool stream = false;    // each problem starts from the answer before
+  bool reachable = true;  // in full; else it is the cost that counts
   std::vector<Problem> problems;
 };
 

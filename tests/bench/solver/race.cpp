@@ -141,9 +141,9 @@ std::vector<Gate> gates(const std::vector<Row>& rows, bool wide_lanes) {
     double median, p99;  // share of the rival's; 0: no gate
   };
   const double most = std::numeric_limits<double>::infinity();
-  for (const Speed& speed : {Speed{"a", 1.0 / 3, most}, Speed{"b", 1.0 / 3, most},
-                             Speed{"c", wide_lanes ? 1.0 / 6 : 1.0 / 4, wide_lanes ? 1.0 / 4 : 1.0 / 3},
-                             Speed{"e", 1.0 / 3, most}}) {
+  for (const Speed& speed :
+       {Speed{"a", 1.0 / 3, most}, Speed{"b", 1.0 / 3, most},
+        Speed{"c", wide_lanes ? 1.0 / 6 : 1.0 / 4, wide_lanes ? 1.0 / 4 : 1.0 / 3}, Speed{"e", 1.0 / 3, most}}) {
     const Row* const ours = find(speed.set, kOurs);
     const Row* const theirs = rival(speed.set);
     if (!ours || !theirs) continue;

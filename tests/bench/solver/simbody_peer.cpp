@@ -1,4 +1,5 @@
-// Simbody's Assembler with markers and limits, from one start: balls are its gimbals, so that each hinge is one of its q.
+// Simbody's Assembler with markers and limits, from one start: balls are its gimbals, so that each hinge is one of its
+// q.
 #include "tests/bench/solver/simbody_rig.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// Simbody behind plain values: its headers do not compile as C++20, so simbody_rig.cpp is C++17, and this header is both.
+// Simbody behind plain values: its headers do not compile as C++20, so simbody_rig.cpp is C++17, and this header is
+// both.
 #pragma once
 
 #include <memory>

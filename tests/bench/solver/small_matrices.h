@@ -1,5 +1,5 @@
-// What Eigen's general routines are slow at for matrices of 3 to 24 rows whose size the compiler knows: all loops are of
-// constant length, over whole columns, so that they become a few wide instructions.
+// What Eigen's general routines are slow at for matrices of 3 to 24 rows whose size the compiler knows: all loops are
+// of constant length, over whole columns, so that they become a few wide instructions.
 #pragma once
 
 #include <Eigen/Core>
@@ -37,7 +37,8 @@ void lower_gram(const Matrix& a, Gram& gram) {
   if constexpr (kRows % 4 == 0) {
     [&]<int... panel>(std::integer_sequence<int, panel...>) {
       (gram_panel<4 * panel>(a, gram), ...);
-    }(std::make_integer_sequence<int, kRows / 4>());
+    }
+    (std::make_integer_sequence<int, kRows / 4>());
   } else {
     gram.noalias() = a.lazyProduct(a.transpose());
   }

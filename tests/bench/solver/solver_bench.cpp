@@ -5,9 +5,9 @@
 // measures nothing worth having, both are only said.
 #include <sched.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
-#include <functional>
 
 #include "server/solver/tempus.h"
 #include "tests/bench/bench_output.h"
@@ -40,8 +40,7 @@ bool has_wide_lanes() {
 #endif
 }
 
-std::vector<std::unique_ptr<Contestant>> contestants(const HingeFigure& figure) {
-  (void)figure;
+std::vector<std::unique_ptr<Contestant>> contestants([[maybe_unused]] const HingeFigure& figure) {
   std::vector<std::unique_ptr<Contestant>> all;
 #ifdef BENCH_HAS_MUJOCO
   all.push_back(mujoco_peer(figure));
@@ -111,9 +110,11 @@ int main(int argc, char** argv) try {
       rows.push_back(std::move(row));
     }
   }
-  std::printf("problems: how many, x of how many runs each time is the least. ok: weighted RMS residual within 1 mm and\n"
-              "all hinges in their ranges; case d cannot be reached: the ranges only. mujoco: up to %d starts, like\n"
-              "posed; the others are asked once, as their users would.\n", 8);
+  std::printf(
+      "problems: how many, x of how many runs each time is the least. ok: weighted RMS residual within 1 mm and\n"
+      "all hinges in their ranges; case d cannot be reached: the ranges only. mujoco: up to %d starts, like\n"
+      "posed; the others are asked once, as their users would.\n",
+      kStarts);
 
   bool fine = print_gates(rows);
   const auto peers = static_cast<int>(
