@@ -146,7 +146,12 @@ std::vector<Gate> gates(const std::vector<Row>& rows, bool wide_lanes) {
         Speed{"c", wide_lanes ? 1.0 / 6 : 1.0 / 4, wide_lanes ? 1.0 / 4 : 1.0 / 3}, Speed{"e", 1.0 / 3, most}}) {
     const Row* const ours = find(speed.set, kOurs);
     const Row* const theirs = rival(speed.set);
-    if (!ours || !theirs) continue;
+    if (!ours) continue;
+    if (!theirs) {  // a gate that nobody stands at is not held
+      found.push_back(
+          {std::string(speed.set) + ": no peer solves 95 % of it, so there is no measure", most, speed.median});
+      continue;
+    }
     const std::string of = std::string(speed.set) + ": share of " + theirs->who + "'s ";
     found.push_back({of + "median", ours->median_us / theirs->median_us, speed.median});
     if (speed.p99 != most) found.push_back({of + "p99", ours->p99_us / theirs->p99_us, speed.p99});

@@ -41,7 +41,7 @@ bool has_wide_lanes() {
 }
 
 std::vector<std::unique_ptr<Contestant>> contestants([[maybe_unused]] const HingeFigure& figure) {
-  std::vector<std::unique_ptr<Contestant>> all;
+  std::vector<std::unique_ptr<Contestant>> all;  // ours comes first, under the name kOurs
 #ifdef BENCH_HAS_MUJOCO
   all.push_back(mujoco_peer(figure));
 #endif
