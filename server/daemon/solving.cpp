@@ -4,13 +4,21 @@
 #include <limits>
 
 namespace posed {
-
 namespace {
 
 // The paper's solver takes hold of points and pulls them to places of the world.
 bool reach_tree_takes(const SceneGoal& goal) {
   return std::holds_alternative<PositionTarget>(goal.goal.payload) &&
          goal.goal.relative_to.kind == GoalBase::Kind::world;
+}
+
+// What it makes of them all.
+void note_goals(SolvedFigure& figure) {
+  const auto& goals = figure.sources;
+  if (std::any_of(goals.begin(), goals.end(), [](const SceneGoal* goal) { return !reach_tree_takes(*goal); }))
+    figure.notes.push_back("only position goals relative to the world pull; the others are off");
+  if (std::any_of(goals.begin(), goals.end(), [](const SceneGoal* goal) { return goal->goal.priority != 0; }))
+    figure.notes.push_back("priorities count as equal");
 }
 
 // A target that is no point turns its goal off.
@@ -36,10 +44,7 @@ void Solving::gather(const Scene& scene) {
     solved.goals.push_back({goal.at.segment, goal.at.point, goal.target(), goal.goal.weight.value, goal.goal.tolerance,
                             goal.goal.enabled});
   }
-  for (auto& [id, solved] : figures_) {
-    if (!std::all_of(solved.sources.begin(), solved.sources.end(), [](auto* goal) { return reach_tree_takes(*goal); }))
-      solved.notes.push_back("only position goals relative to the world pull; the others are off");
-  }
+  for (auto& [id, solved] : figures_) note_goals(solved);
 }
 
 void Solving::solve(Scene& scene, bool live_only, const Clock& clock) {

@@ -157,7 +157,7 @@ TEST(Daemon, WhatReachTreeDoesNotDoIsKeptAndSaid) {
   const RunningDaemon daemon;
   auto client = daemon.connect();
   ASSERT_TRUE(client.call("goal.set", R"({"at":"head","aim":{"axis":[1,0,0],"point":[1,1,1]}})"));
-  ASSERT_TRUE(client.call("goal.set", R"({"balance":{"support":["left_foot","right_foot"]}})"));
+  ASSERT_TRUE(client.call("goal.set", R"({"balance":{"support":["left_foot","right_foot"]},"priority":1})"));
   ASSERT_TRUE(client.call("goal.set",
                           R"({"id":"near","at":"right_hand","position":[0,0,0.1],"relative_to":{"segment":"head"}})"));
   const auto pinned = client.call("figure.pin", R"({"segment":"left_foot","hold":"pose"})");
@@ -172,9 +172,9 @@ TEST(Daemon, WhatReachTreeDoesNotDoIsKeptAndSaid) {
     EXPECT_EQ(goal->touch, goal->target) << id;
   }
   EXPECT_EQ(find_goal(pose.pose.goals, last->id)->state, GoalState::reached);
-  EXPECT_EQ(pose.notes,
-            (std::vector<std::string>{"joints count as balls and keep no limits", "pins are not kept",
-                                      "only position goals relative to the world pull; the others are off"}));
+  EXPECT_EQ(pose.notes, (std::vector<std::string>{"joints count as balls and keep no limits", "pins are not kept",
+                                                  "only position goals relative to the world pull; the others are off",
+                                                  "priorities count as equal"}));
   const auto goals = client.call("goal.list");
   ASSERT_TRUE(goals);
   EXPECT_NE(goals->find(R"("kind":"aim")"), std::string::npos);
