@@ -1,6 +1,7 @@
 // A field of an edit: left out (keep), null (back to the default), or a value.
 #pragma once
 
+#include <type_traits>
 #include <utility>
 #include <variant>
 
@@ -11,6 +12,8 @@ class Patched {
  public:
   Patched() = default;
   Patched(T value) : state_(std::in_place_index<2>, std::move(value)) {}
+  template <class U>
+  requires(std::is_convertible_v<U, T> && !std::is_same_v<U, T>) Patched(U value) : Patched(T(std::move(value))) {}
   static Patched reset() {
     Patched p;
     p.state_.template emplace<1>();

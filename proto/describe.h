@@ -32,6 +32,8 @@ void describe(V& v, Joint& m) {
   v.optional("quat_xyzw", m.parent_from_joint.rotation);
   v.optional("axes", m.axes);
   v.optional("limits", m.limits);
+  v.optional("swing", m.swing);
+  v.optional("twist", m.twist);
   if (V::kReads || m.bend_axis != kZero) v.optional("bend_axis", m.bend_axis);
 }
 
@@ -62,21 +64,77 @@ void describe(V& v, FigureDocument& m) {
 // ---- scene documents: the id is the key of the map ----
 
 template <class V>
+void describe(V& v, OrientationTarget& m) {
+  v.required("quat_xyzw", m.rotation);
+}
+template <class V>
+void describe(V& v, AimTarget& m) {
+  v.required("axis", m.axis);
+  v.optional("point", m.point);
+  v.optional("direction", m.direction);
+}
+template <class V>
+void describe(V& v, PlaneTarget& m) {
+  v.required("point", m.point);
+  v.required("normal", m.normal);
+  v.optional("side", m.side);
+}
+template <class V>
+void describe(V& v, LineTarget& m) {
+  v.required("point", m.point);
+  v.required("direction", m.direction);
+}
+template <class V>
+void describe(V& v, DistanceTarget& m) {
+  v.required("to", m.to);
+  v.required("length", m.length);
+  v.optional("compare", m.compare);
+}
+template <class V>
+void describe(V& v, BalanceTarget& m) {
+  v.required("support", m.support);
+  v.optional("margin", m.margin);
+}
+template <class V>
+void describe(V& v, PostureTarget& m) {
+  v.optional("pose", m.pose);
+  v.optional("joints", m.joints);
+}
+
+template <class V>
+void describe_payload(V& v, PayloadEdit& m) {
+  v.optional("position", m.position);
+  v.optional("orientation", m.orientation);
+  v.optional("aim", m.aim);
+  v.optional("plane", m.plane);
+  v.optional("line", m.line);
+  v.optional("distance", m.distance);
+  v.optional("balance", m.balance);
+  v.optional("posture", m.posture);
+}
+
+template <class V>
 void describe_goal(V& v, Goal& m) {
+  PayloadEdit payload;
+  if constexpr (!V::kReads) payload = spelled_out(m.payload);
   v.required("figure", m.figure);
-  if constexpr (!V::kReads) v.constant("kind", "position");
-  v.reserved("kind", "\"position\"");
-  v.required("at", m.at);
-  v.required("position", m.position);
-  if constexpr (!V::kReads) v.constant("relative_to", "world");
-  v.reserved("relative_to", "\"world\"");
+  v.optional("kind", payload.kind);
+  v.optional("at", m.at);
+  describe_payload(v, payload);
+  v.optional("relative_to", m.relative_to);
   v.optional("weight", m.weight);
-  if constexpr (!V::kReads) v.constant("priority", 0);
-  v.reserved("priority", "0");
+  v.optional("priority", m.priority);
   v.optional("tolerance", m.tolerance);
   v.optional("enabled", m.enabled);
   v.optional("label", m.label);
   v.verbatim("user", m.user);
+  if constexpr (V::kReads) {
+    Result<GoalPayload> made = payload_after(nullptr, payload);
+    if (made)
+      m.payload = std::move(*made);
+    else
+      v.fail_below(made.error());
+  }
 }
 template <class V>
 void describe(V& v, Goal& m) {
@@ -113,6 +171,13 @@ void describe(V& v, Binding& m) {
 }
 
 template <class V>
+void describe(V& v, Pin& m) {
+  v.required("hold", m.hold);
+  v.optional("position", m.position);
+  v.optional("quat_xyzw", m.rotation);
+}
+
+template <class V>
 void describe(V& v, FigureEntry& m) {
   if (V::kReads || !m.template_name.empty()) {
     v.optional("template", m.template_name);
@@ -120,6 +185,7 @@ void describe(V& v, FigureEntry& m) {
   }
   v.optional("document", m.document);
   v.optional("q", m.q);
+  v.optional("pins", m.pins);
   v.optional("label", m.label);
   v.verbatim("user", m.user);
 }
@@ -173,16 +239,22 @@ void describe(V& v, M& m) {
 }
 
 template <class V>
+void describe(V& v, FigurePin& m) {
+  v.optional("figure", m.figure);
+  v.required("segment", m.segment);
+  v.required("hold", m.hold);
+}
+
+template <class V>
 void describe(V& v, GoalSet& m) {
   v.optional("id", m.edit.id);
   v.optional("figure", m.edit.figure);
+  v.optional("kind", m.edit.kind);
   v.optional("at", m.edit.at);
-  v.optional("position", m.edit.position);
-  v.reserved("kind", "\"position\"");
-  for (const char* kind : {"orientation", "aim", "plane", "line", "distance", "balance", "posture"}) v.reserved(kind);
-  v.reserved("relative_to", "\"world\"");
-  v.reserved("priority", "0");
+  describe_payload(v, m.edit);
+  v.optional("relative_to", m.edit.relative_to);
   v.optional("weight", m.edit.weight);
+  v.optional("priority", m.edit.priority);
   v.optional("tolerance", m.edit.tolerance);
   v.optional("enabled", m.edit.enabled);
   v.optional("label", m.edit.label);

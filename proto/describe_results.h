@@ -99,6 +99,7 @@ void describe(V& v, FigureResult& m) {
   }
   v.required("document", m.document);
   v.required("q_layout", m.q_layout);
+  v.optional("pins", m.entry.pins);
   v.optional("label", m.entry.label);
   v.verbatim("user", m.entry.user);
 }

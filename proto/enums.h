@@ -20,6 +20,26 @@ struct EnumNames<Shape::Kind> {
   static constexpr std::array names{"capsule", "ellipsoid", "box"};
 };
 template <>
+struct EnumNames<GoalKind> {
+  static constexpr auto names = kGoalKindNames;
+};
+template <>
+struct EnumNames<PlaneTarget::Side> {
+  static constexpr std::array names{"on", "above"};
+};
+template <>
+struct EnumNames<DistanceTarget::Compare> {
+  static constexpr std::array names{"equal", "at_least", "at_most"};
+};
+template <>
+struct EnumNames<Pin::Hold> {
+  static constexpr std::array names{"position", "orientation", "pose"};
+};
+template <>
+struct EnumNames<Cause::Side> {
+  static constexpr std::array names{"min", "max", "swing"};
+};
+template <>
 struct EnumNames<Binding::Mode> {
   static constexpr std::array names{"absolute", "relative"};
 };

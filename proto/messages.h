@@ -51,6 +51,10 @@ struct FigureList {};
 struct FigureRemove {
   std::string id;
 };
+struct FigurePin {
+  std::string figure, segment;
+  std::optional<Pin::Hold> hold;  // none: the segment is let go
+};
 
 struct GoalSet {
   GoalEdit edit;
@@ -142,11 +146,11 @@ struct StreamAck {
   std::uint64_t seq = 0;
 };
 
-using Params =
-    std::variant<SessionHello, SessionPing, SessionStatus, SessionList, FigureSet, FigureGet, FigureList, FigureRemove,
-                 GoalSet, GoalGet, GoalList, GoalRemove, GoalClear, BindingSet, BindingGet, BindingList, BindingRemove,
-                 JointSet, JointGet, PoseGet, PoseSet, PoseReset, PoseMirror, SolverGet, SolverSet, SceneGet, SceneNew,
-                 SceneList, SceneSave, SceneOpen, TrackerList, StreamSubscribe, StreamUnsubscribe, StreamAck>;
+using Params = std::variant<SessionHello, SessionPing, SessionStatus, SessionList, FigureSet, FigureGet, FigureList,
+                            FigureRemove, FigurePin, GoalSet, GoalGet, GoalList, GoalRemove, GoalClear, BindingSet,
+                            BindingGet, BindingList, BindingRemove, JointSet, JointGet, PoseGet, PoseSet, PoseReset,
+                            PoseMirror, SolverGet, SolverSet, SceneGet, SceneNew, SceneList, SceneSave, SceneOpen,
+                            TrackerList, StreamSubscribe, StreamUnsubscribe, StreamAck>;
 
 struct Request {
   std::string id;                            // JSON text of the id; empty: a notification, which gets no reply
@@ -258,8 +262,10 @@ struct GoalFrame {
   Vec3 force{0.0, 0.0, 0.0};
   GoalState state = GoalState::off;
   struct Because {
-    std::string goal;  // empty: beyond_m
+    std::string goal;  // empty: the next
     double beyond_m = 0.0;
+    std::string limit = {};  // a joint's name; its limit on this side. Empty: one of the others
+    Cause::Side side = Cause::Side::min;
   };
   std::vector<Because> causes;
 };

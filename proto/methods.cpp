@@ -39,6 +39,7 @@ constexpr std::array kMethods{
     method<FigureGet>("figure.get"),
     method<FigureList>("figure.list"),
     method<FigureRemove>("figure.remove", kEdits),
+    method<FigurePin>("figure.pin", kEdits),
     method<GoalSet>("goal.set", kEdits),
     method<GoalGet>("goal.get"),
     method<GoalList>("goal.list"),
@@ -69,10 +70,10 @@ constexpr std::array kMethods{
 static_assert(kMethods.size() == std::variant_size_v<Params>);
 
 constexpr const char* kReserved[] = {
-    "scene.remove", "object.set",      "object.get",        "object.list",   "object.remove", "camera.set",
-    "camera.get",   "camera.list",     "camera.remove",     "goal.grab",     "goal.release",  "figure.pin",
-    "solve",        "solve.batch",     "edit.apply",        "edit.undo",     "edit.redo",     "edit.history",
-    "tracker.grab", "tracker.release", "tracker.configure", "tracker.align", "tracker.reset",
+    "scene.remove",    "object.set",        "object.get",    "object.list",   "object.remove", "camera.set",
+    "camera.get",      "camera.list",       "camera.remove", "goal.grab",     "goal.release",  "solve",
+    "solve.batch",     "edit.apply",        "edit.undo",     "edit.redo",     "edit.history",  "tracker.grab",
+    "tracker.release", "tracker.configure", "tracker.align", "tracker.reset",
 };
 
 }  // namespace

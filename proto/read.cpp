@@ -105,6 +105,7 @@ void read(ReadContext& c, const Json& j, Attachment& out) {
   out = {};
   if (j.is_string()) {
     const auto text = j.get<std::string>();
+    if (text.empty()) return c.fail("unknown_segment", "the place names no segment", "\"right_hand\"");
     const std::size_t slash = text.find('/');
     out.segment = text.substr(0, slash);
     if (slash != std::string::npos) out.site = text.substr(slash + 1);
@@ -139,7 +140,66 @@ void read(ReadContext& c, const Json& j, Shape& out) {
 
 void read(ReadContext& c, const Json& j, Limit& out) {
   double v[2];
-  if (read_numbers(c, j, v, "[min,max]")) out = {v[0], v[1]};
+  if (read_numbers(c, j, v, "as in [0.1,1.2]")) out = {v[0], v[1]};
+}
+
+void read(ReadContext& c, const Json& j, Swing& out) {
+  if (!expect_object(c, j)) return;
+  out = {};
+  if (j.contains("ellipse") == j.contains("polygon"))
+    return c.fail("invalid_params", "a swing is either an ellipse or a polygon", R"("ellipse":[0.8,0.5])");
+  Reader r(c, j);
+  if (r.has("polygon")) {
+    out.kind = Swing::Kind::polygon;
+    r.required("polygon", out.corners);
+  } else {
+    Limit radii;  // two numbers
+    r.required("ellipse", radii);
+    out.radii = {radii.min, radii.max};
+    r.optional("center", out.center);
+  }
+  r.finish();
+}
+
+void read(ReadContext& c, const Json& j, GoalBase& out) {
+  out = {};
+  if (j == "world") return;
+  constexpr const char* kHint = R"("world", {"figure":"body","segment":"head"} or {"sensor":"liberty:1"})";
+  if (!j.is_object()) return c.fail("invalid_params", "a goal is relative to the world, a segment or a sensor", kHint);
+  Reader r(c, j);
+  r.reserved("object");
+  const bool figure = r.optional("figure", out.figure), segment = r.optional("segment", out.segment);
+  const bool sensor = r.optional("sensor", out.sensor);
+  out.kind = sensor ? GoalBase::Kind::sensor : GoalBase::Kind::segment;
+  if (sensor && (figure || segment)) r.fail("invalid_params", "a goal is relative to one thing", kHint);
+  if (!sensor && !segment) r.fail_at("segment", "missing_field", "the field \"segment\" is missing", kHint);
+  r.finish();
+}
+
+void read(ReadContext& c, const Json& j, GoalWeight& out) {
+  out = {};
+  if (j.is_number()) return read(c, j, out.value);
+  if (!j.is_object())
+    return c.fail("wrong_type", "a number was expected", R"(10; of a pose goal also {"position":10,"orientation":2})");
+  Reader r(c, j);
+  r.required("position", out.value);
+  r.required("orientation", out.orientation.emplace());
+  r.finish();
+}
+
+void read(ReadContext& c, const Json& j, JointValue& out) {
+  out = {};
+  if (j.is_number()) return read(c, j, out.share.emplace_back());
+  if (j.is_array()) return read(c, j, out.share);
+  if (!j.is_object()) {
+    return c.fail("wrong_type", "a joint's value was expected",
+                  R"(a number, its share of q as an array, or {"halfplane":…,"deviation":…,"twist":…})");
+  }
+  Reader r(c, j);
+  r.optional("halfplane", out.halfplane);
+  r.optional("deviation", out.deviation);
+  r.optional("twist", out.twist);
+  r.finish();
 }
 
 void read(ReadContext& c, const Json& j, Axes& out) {
@@ -166,6 +226,8 @@ void read(ReadContext& c, const Json& j, GoalFrame::Because& out) {
   Reader r(c, j);
   r.optional("goal", out.goal);
   r.optional("beyond_m", out.beyond_m);
+  r.optional("limit", out.limit);
+  r.optional("side", out.side);
   r.finish();
 }
 

@@ -74,6 +74,10 @@ void read(ReadContext& c, const Json& j, Transform& out);  // [x,y,z,qx,qy,qz,qw
 void read(ReadContext& c, const Json& j, Attachment& out);
 void read(ReadContext& c, const Json& j, Shape& out);
 void read(ReadContext& c, const Json& j, Limit& out);
+void read(ReadContext& c, const Json& j, Swing& out);
+void read(ReadContext& c, const Json& j, GoalBase& out);
+void read(ReadContext& c, const Json& j, GoalWeight& out);
+void read(ReadContext& c, const Json& j, JointValue& out);
 void read(ReadContext& c, const Json& j, Axes& out);
 void read(ReadContext& c, const Json& j, GoalFrame::Because& out);
 void read(ReadContext& c, const Json& j, std::pair<std::string, std::string>& out);
@@ -168,6 +172,12 @@ class Reader {
   void fail_at(const char* key, const char* code, std::string message, std::string hint = {}) {
     const At at(context_, key);
     context_.fail(code, std::move(message), std::move(hint));
+  }
+  // An error of a part, whose path begins at this object.
+  void fail_below(Error error) {
+    if (context_.error) return;
+    error.path = context_.path + error.path;
+    context_.error = std::move(error);
   }
   bool has(const char* key) const { return object_.contains(key); }
   bool ok() const { return !context_.error; }

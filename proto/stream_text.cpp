@@ -94,12 +94,18 @@ void append_goal(std::string& out, const GoalFrame& goal) {
   out += ",\"causes\":[";
   for (std::size_t i = 0; i < goal.causes.size(); ++i) {
     if (i > 0) out += ',';
-    if (!goal.causes[i].goal.empty()) {
+    const GoalFrame::Because& cause = goal.causes[i];
+    if (!cause.goal.empty()) {
       out += "{\"goal\":";
-      append_id(out, goal.causes[i].goal);
+      append_id(out, cause.goal);
+    } else if (!cause.limit.empty()) {
+      out += "{\"limit\":";
+      append_id(out, cause.limit);
+      out += ",\"side\":";
+      append_id(out, word(cause.side));
     } else {
       out += "{\"beyond_m\":";
-      append_fixed(out, goal.causes[i].beyond_m, kMetreDecimals);
+      append_fixed(out, cause.beyond_m, kMetreDecimals);
     }
     out += '}';
   }

@@ -45,8 +45,38 @@ Json write(const Shape& s) {
   return j;
 }
 
+Json write(const Swing& s) {
+  if (s.kind == Swing::Kind::polygon) return Json{{"polygon", write(s.corners)}};
+  Json j{{"ellipse", Json::array({s.radii[0], s.radii[1]})}};
+  if (s.center != kZero) j["center"] = write(s.center);
+  return j;
+}
+
+Json write(const GoalBase& b) {
+  if (b.kind == GoalBase::Kind::world) return "world";
+  if (b.kind == GoalBase::Kind::sensor) return Json{{"sensor", b.sensor}};
+  Json j = Json::object();
+  if (!b.figure.empty()) j["figure"] = b.figure;
+  j["segment"] = b.segment;
+  return j;
+}
+
+Json write(const GoalWeight& w) {
+  return w.orientation ? Json{{"position", w.value}, {"orientation", *w.orientation}} : Json(w.value);
+}
+
+Json write(const JointValue& v) {
+  if (!v.oriented()) return v.share.size() == 1 ? Json(v.share[0]) : write(v.share);
+  Json j = Json::object();
+  if (v.halfplane) j["halfplane"] = *v.halfplane;
+  if (v.deviation) j["deviation"] = *v.deviation;
+  if (v.twist) j["twist"] = *v.twist;
+  return j;
+}
+
 Json write(const GoalFrame::Because& b) {
-  return b.goal.empty() ? Json{{"beyond_m", b.beyond_m}} : Json{{"goal", b.goal}};
+  if (!b.goal.empty()) return Json{{"goal", b.goal}};
+  return b.limit.empty() ? Json{{"beyond_m", b.beyond_m}} : Json{{"limit", b.limit}, {"side", word(b.side)}};
 }
 
 }  // namespace posed::proto

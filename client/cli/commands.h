@@ -28,6 +28,7 @@ int run_watch(const Session& session, const Watch& watch);
 
 int list_goals(const Session& session);
 int set_goal(const Session& session, const proto::GoalSet& goal);
+int set_goal(const Session& session, const std::string& params);  // a JSON object: goals of every kind
 int remove_goal(const Session& session, const std::string& id);
 int clear_goals(const Session& session, const std::string& figure);
 

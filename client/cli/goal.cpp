@@ -10,6 +10,11 @@ std::string show(const Attachment& at) {
   return at.segment + format(" [%g %g %g]", at.point->x, at.point->y, at.point->z);
 }
 
+std::string show(const GoalBase& base) {
+  if (base.kind == GoalBase::Kind::world) return "";
+  return " from " + (base.kind == GoalBase::Kind::sensor ? base.sensor : base.figure + ' ' + base.segment);
+}
+
 }  // namespace
 
 int list_goals(const Session& session) {
@@ -17,8 +22,15 @@ int list_goals(const Session& session) {
     if (list.goals.empty()) print_line("no goals");
     for (const proto::GoalResult& entry : list.goals) {
       const Goal& goal = entry.goal;
-      std::string line = format("%s  %s at %s  [%g %g %g] m  weight %g", goal.id.c_str(), goal.figure.c_str(),
-                                show(goal.at).c_str(), goal.position.x, goal.position.y, goal.position.z, goal.weight);
+      const GoalKind kind = kind_of(goal.payload);
+      std::string line = goal.id + "  " + goal.figure;
+      if (takes_hold(kind)) line += " at " + show(goal.at);
+      if (kind != GoalKind::position) line += std::string("  ") + name_of(kind);
+      if (const Vec3* p = position_of(goal.payload)) line += format("  [%g %g %g] m", p->x, p->y, p->z);
+      line += show(goal.relative_to);
+      line += format("  weight %g", goal.weight.value);
+      if (goal.weight.orientation) line += format(" and %g", *goal.weight.orientation);
+      if (goal.priority != 0) line += format("  priority %d", goal.priority);
       if (goal.tolerance > 0.0) line += format("  tolerance %g m", goal.tolerance);
       if (!goal.enabled) line += "  disabled";
       if (!goal.label.empty()) line += "  " + goal.label;
@@ -27,11 +39,18 @@ int list_goals(const Session& session) {
   });
 }
 
+namespace {
+void show_set(const proto::EditResult& result) {
+  print_line(format("%s is set (revision %llu)", result.id.c_str(), static_cast<unsigned long long>(result.revision)));
+}
+}  // namespace
+
 int set_goal(const Session& session, const proto::GoalSet& goal) {
-  return request<proto::EditResult>(session, goal, [](const proto::EditResult& result) {
-    print_line(
-        format("%s is set (revision %llu)", result.id.c_str(), static_cast<unsigned long long>(result.revision)));
-  });
+  return request<proto::EditResult>(session, goal, show_set);
+}
+
+int set_goal(const Session& session, const std::string& params) {
+  return call<proto::EditResult>(session, "goal.set", params, show_set);
 }
 
 int remove_goal(const Session& session, const std::string& id) {

@@ -37,13 +37,20 @@ void add_goal(CLI::App& app, Run& run) {
     double weight = 0.0;
   };
   auto args = std::make_shared<Set>();
-  auto* set = goal->add_subcommand("set", "pull a segment's touch point, or a site, to a point");
-  set->add_option("at", args->at, "right_hand, or right_hand/fingertip")->required();
-  set->add_option("position", args->position, "metres, Z up")->required()->expected(3)->type_name("X Y Z");
+  auto* set = goal->add_subcommand("set", "pull a segment's touch point, or a site, to a point; or any other goal");
+  set->add_option("at", args->at, "right_hand, right_hand/fingertip, or the whole goal as a JSON object")->required();
+  set->add_option("position", args->position, "metres, Z up")->expected(3)->type_name("X Y Z");
   set->add_option("--id", args->id, "default: FIGURE.SEGMENT.position");
   set->add_option("--figure", args->figure, "needed where there are several");
   auto* weight = set->add_option("--weight", args->weight, "default: 10")->type_name("W");
   set->callback([&run, args, weight] {
+    if (args->at.starts_with('{')) {
+      if (!args->position.empty() || !args->id.empty() || !args->figure.empty() || *weight)
+        throw CLI::ValidationError("a goal as JSON says all by itself", 1);
+      run = [args](const Session& s) { return set_goal(s, args->at); };
+      return;
+    }
+    if (args->position.size() != 3) throw CLI::RequiredError("position");
     proto::GoalSet edit;
     edit.edit.id = args->id;
     edit.edit.figure = args->figure;

@@ -23,10 +23,9 @@ std::string format(const char* pattern, Args... args) {
   return text;
 }
 
-// Sends a request and prints its result: as it came with --json, else as `show` says.
+// Prints the result of a request: as it came with --json, else as `show` says.
 template <class R, class Show>
-int request(const Session& session, const proto::Params& params, const Show& show) {
-  const auto text = session.client.request(params);
+int print_result(const Session& session, const Result<std::string>& text, const Show& show) {
   if (!text) return fail(text.error());
   if (session.json) {
     print_line(*text);
@@ -36,6 +35,16 @@ int request(const Session& session, const proto::Params& params, const Show& sho
   if (!result) return fail(result.error());
   show(*result);
   return kDone;
+}
+
+template <class R, class Show>
+int request(const Session& session, const proto::Params& params, const Show& show) {
+  return print_result<R>(session, session.client.request(params), show);
+}
+
+template <class R, class Show>
+int call(const Session& session, const std::string& method, const std::string& params, const Show& show) {
+  return print_result<R>(session, session.client.call(method, params), show);
 }
 
 // For edits: says `done` and the scene's new revision.

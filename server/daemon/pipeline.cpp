@@ -133,8 +133,8 @@ void Pipeline::reply_pose(const std::string& figure, Responder& responder) const
   result.revision = solving.revision();
   result.iterations = report.iterations;
   result.chain_solves = report.chain_solves;
-  result.method = "reach_tree";
-  result.notes = {"joints count as balls and keep no limits"};
+  result.method = solving.method;
+  result.notes = solved->second.notes;
   result.balance_error = report.balance_error;
   result.solve_us = 1e-3 * static_cast<double>(solved->second.solve_ns);
   responder.result(result);

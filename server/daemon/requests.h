@@ -26,6 +26,7 @@ class Requests {
   void on(const proto::FigureGet&, Responder);
   void on(const proto::FigureList&, Responder);
   void on(const proto::FigureRemove&, Responder);
+  void on(const proto::FigurePin&, Responder);
   void on(const proto::GoalSet&, Responder);
   void on(const proto::GoalGet&, Responder);
   void on(const proto::GoalList&, Responder);

@@ -73,6 +73,10 @@ void Requests::on(const proto::FigureRemove& m, Responder responder) {
   answer(p_.scene.remove_figure(m.id, if_revision_), responder);
 }
 
+void Requests::on(const proto::FigurePin& m, Responder responder) {
+  answer(p_.scene.pin(m.figure, m.segment, m.hold, if_revision_), responder);
+}
+
 void Requests::on(const proto::GoalSet& m, Responder responder) {
   answer(p_.scene.set_goal(m.edit, if_revision_), responder);
 }

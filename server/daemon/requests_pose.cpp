@@ -1,8 +1,8 @@
 // Joints, poses and the solver.
 #include <algorithm>
 
-#include "common/names.h"
 #include "server/daemon/requests.h"
+#include "server/scene/joint_value.h"
 #include "server/scene/mirror.h"
 #include "server/solver/orientation.h"
 #include "server/solver/tempus.h"
@@ -10,38 +10,14 @@
 namespace posed {
 namespace {
 
-Result<int> find_joint(const BodyTree& tree, const std::string& name) {
-  if (const auto joint = tree.find_joint(name)) return *joint;
-  std::vector<std::string> known;
-  known.reserve(static_cast<std::size_t>(tree.size()));
-  for (int i = 0; i < tree.size(); ++i) known.push_back(tree.joint(i).name);
-  return Error{"unknown_joint", "no joint is called " + name.substr(0, 64), "/joint", did_you_mean(name, known)};
+Result<int> joint_of(const BodyTree& tree, const std::string& name) {
+  Result<int> joint = find_joint(tree, name);
+  if (!joint) joint.error().path = "/joint";
+  return joint;
 }
 
-bool turns(JointType type) {
-  return type == JointType::ball || type == JointType::universal;
-}
-
-// The joint's new share of q.
-Result<std::vector<double>> share_of(const proto::JointSet& m, const BodyTree& tree, int joint) {
-  const JointType type = tree.joint(joint).type;
-  const auto size = static_cast<std::size_t>(q_size(type));
-  const bool orientation = m.halfplane || m.deviation || m.twist;
-  if (orientation == !m.value.empty()) {
-    return Error{"invalid_params", "a joint is set either by value or by halfplane, deviation and twist", "/value",
-                 "give one of the two"};
-  }
-  if (!orientation) {
-    if (m.value.size() == size) return m.value;
-    return Error{"wrong_type", "the joint takes " + std::to_string(size) + " numbers", "/value",
-                 "figure.get tells its type in q_layout"};
-  }
-  if (!turns(type)) return Error{"invalid_params", "the joint has no free orientation", "/halfplane", "set its value"};
-  const Orientation o{m.halfplane.value_or(0.0), m.deviation.value_or(0.0), m.twist.value_or(0.0)};
-  if (o.deviation < 0.0 || o.deviation > M_PI)
-    return Error{"out_of_range", "the deviation is out of range", "/deviation", "0 to pi"};
-  const auto q = xyzw(quat_from_orientation(o, tree.segment(joint).touch_point));
-  return std::vector<double>(q.begin(), q.end());
+proto::SolverResult message(const Solving& solving) {
+  return {solving.method, solving.options.root_iterations, solving.options.branch_iterations};
 }
 
 }  // namespace
@@ -50,10 +26,13 @@ void Requests::on(const proto::JointSet& m, Responder responder) {
   const Result<const SceneFigure*> figure = p_.scene.find_figure(m.figure);
   if (!figure) return responder.params_error(figure.error());
   const BodyTree& tree = *(*figure)->tree;
-  const Result<int> joint = find_joint(tree, m.joint);
+  const Result<int> joint = joint_of(tree, m.joint);
   if (!joint) return responder.params_error(joint.error());
-  const Result<std::vector<double>> share = share_of(m, tree, *joint);
-  if (!share) return responder.params_error(share.error());
+  Result<std::vector<double>> share = joint_share(tree, *joint, {m.value, m.halfplane, m.deviation, m.twist});
+  if (!share) {
+    if (share.error().path.empty()) share.error().path = "/value";
+    return responder.params_error(share.error());
+  }
   std::vector<double> q = (*figure)->q;
   std::copy(share->begin(), share->end(), q.begin() + tree.q_at(*joint));
   answer(p_.scene.set_q((*figure)->entry.id, std::move(q), if_revision_), responder);
@@ -63,7 +42,7 @@ void Requests::on(const proto::JointGet& m, Responder responder) {
   const Result<const SceneFigure*> figure = p_.scene.find_figure(m.figure);
   if (!figure) return responder.params_error(figure.error());
   const BodyTree& tree = *(*figure)->tree;
-  const Result<int> joint = find_joint(tree, m.joint);
+  const Result<int> joint = joint_of(tree, m.joint);
   if (!joint) return responder.params_error(joint.error());
   proto::JointResult result;
   result.figure = (*figure)->entry.id;
@@ -108,18 +87,19 @@ void Requests::on(const proto::PoseMirror& m, Responder responder) {
 }
 
 void Requests::on(const proto::SolverGet&, Responder responder) {
-  const ReachTreeOptions& options = p_.solving.options;
-  responder.result(proto::SolverResult{"reach_tree", options.root_iterations, options.branch_iterations});
+  responder.result(message(p_.solving));
 }
 
 void Requests::on(const proto::SolverSet& m, Responder responder) {
-  if (const std::string* method = m.method.value(); method && *method != "reach_tree") {
-    if (*method == "springs") {
-      return responder.error({"not_available", "the method springs is reserved: this daemon does not do it yet",
-                              "/params/method", "use reach_tree"});
-    }
-    return responder.error(
-        {"invalid_params", "no method is called " + method->substr(0, 64), "/params/method", "use reach_tree"});
+  std::string method = p_.solving.method;
+  m.method.apply(method, Solving{}.method);
+  if (method != "reach_tree" && method != "springs") {
+    return responder.error({"invalid_params", "no method is called " + method.substr(0, 64), "/params/method",
+                            kSpringsAvailable ? "springs or reach_tree" : "use reach_tree"});
+  }
+  if (method == "springs" && !kSpringsAvailable) {
+    return responder.error({"not_available", "the method springs is reserved: this daemon does not do it yet",
+                            "/params/method", "use reach_tree"});
   }
   ReachTreeOptions options = p_.solving.options;
   m.iterations.apply(options.root_iterations, ReachTreeOptions{}.root_iterations);
@@ -132,8 +112,9 @@ void Requests::on(const proto::SolverSet& m, Responder responder) {
     return responder.error({"out_of_range", "the number of iterations is out of range", "/params/branch_iterations",
                             "1 to 100; the default is 1"});
   }
+  p_.solving.method = method;
   p_.solving.options = options;
-  responder.result(proto::SolverResult{"reach_tree", options.root_iterations, options.branch_iterations});
+  responder.result(message(p_.solving));
   p_.resolve();
 }
 

@@ -1,8 +1,30 @@
 #include "server/daemon/solving.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace posed {
+namespace {
+
+// The paper's solver takes hold of points and pulls them to places of the world.
+bool reach_tree_takes(const SceneGoal& goal) {
+  return std::holds_alternative<PositionTarget>(goal.goal.payload) &&
+         goal.goal.relative_to.kind == GoalBase::Kind::world;
+}
+
+// What it makes of them all.
+void note_goals(SolvedFigure& figure) {
+  const auto& goals = figure.sources;
+  if (std::any_of(goals.begin(), goals.end(), [](const SceneGoal* goal) { return !reach_tree_takes(*goal); }))
+    figure.notes.push_back("only position goals relative to the world pull; the others are off");
+  if (std::any_of(goals.begin(), goals.end(), [](const SceneGoal* goal) { return goal->goal.priority != 0; }))
+    figure.notes.push_back("priorities count as equal");
+}
+
+// A target that is no point turns its goal off.
+constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
 
 void Solving::gather(const Scene& scene) {
   std::erase_if(figures_, [&](const auto& entry) { return !scene.figures().contains(entry.first); });
@@ -13,13 +35,16 @@ void Solving::gather(const Scene& scene) {
     }
     solved.sources.clear();
     solved.goals.clear();
+    solved.notes = {"joints count as balls and keep no limits"};
+    if (!figure.entry.pins.empty()) solved.notes.push_back("pins are not kept");
   }
   for (const auto& [id, goal] : scene.goals()) {
     SolvedFigure& solved = figures_.at(goal.goal.figure);
     solved.sources.push_back(&goal);
-    solved.goals.push_back(
-        {goal.at.segment, goal.at.point, goal.target(), goal.goal.weight, goal.goal.tolerance, goal.goal.enabled});
+    solved.goals.push_back({goal.at.segment, goal.at.point, goal.target(), goal.goal.weight.value, goal.goal.tolerance,
+                            goal.goal.enabled});
   }
+  for (auto& [id, solved] : figures_) note_goals(solved);
 }
 
 void Solving::solve(Scene& scene, bool live_only, const Clock& clock) {
@@ -29,8 +54,9 @@ void Solving::solve(Scene& scene, bool live_only, const Clock& clock) {
   for (auto& [id, figure] : figures_) {
     bool live = false;
     for (std::size_t i = 0; i < figure.sources.size(); ++i) {
-      live = live || figure.sources[i]->live;
-      figure.goals[i].target = figure.sources[i]->target();
+      const SceneGoal& goal = *figure.sources[i];
+      live = live || goal.follows_sensors();
+      figure.goals[i].target = reach_tree_takes(goal) ? goal.target() : Vec3(kNowhere);
     }
     if (live_only && !edited && !live) continue;
     const std::vector<double>& present = scene.figures().at(id).q;
@@ -67,9 +93,11 @@ proto::FigurePose Solving::message(const std::string& id) const {
     goal.state = report.state;
     for (const Cause& cause : report.causes) {
       if (cause.kind == Cause::Kind::goal) {
-        goal.causes.push_back({figure.sources[static_cast<std::size_t>(cause.goal)]->goal.id, 0.0});
+        goal.causes.push_back({figure.sources[static_cast<std::size_t>(cause.goal)]->goal.id, 0.0, "", {}});
+      } else if (cause.kind == Cause::Kind::limit) {
+        goal.causes.push_back({"", 0.0, figure.solver->tree().joint(cause.joint).name, cause.side});
       } else {
-        goal.causes.push_back({"", cause.beyond_m});
+        goal.causes.push_back({"", cause.beyond_m, "", {}});
       }
     }
   }

@@ -14,10 +14,14 @@
 
 namespace posed {
 
+// The method `springs` is refused while this is false.
+inline constexpr bool kSpringsAvailable = false;
+
 struct SolvedFigure {
   std::unique_ptr<ReachTreeSolver> solver;
   std::vector<const SceneGoal*> sources;  // in the order of pose.goals
   std::vector<ReachGoal> goals;
+  std::vector<std::string> notes;  // what the method makes of the figure and does not do
   std::vector<double> q;
   Pose pose;
   Nanoseconds solve_ns = 0;
@@ -25,6 +29,7 @@ struct SolvedFigure {
 
 class Solving {
  public:
+  std::string method = "reach_tree";
   ReachTreeOptions options;
   Nanoseconds deadline_ns = 20'000'000;
 

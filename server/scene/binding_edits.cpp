@@ -1,34 +1,23 @@
 #include <algorithm>
-#include <charconv>
 
 #include "server/scene/errors.h"
 #include "server/scene/scene.h"
 
 namespace posed {
-namespace {
 
-struct Sensor {
-  std::string device;
-  int station = 0;
-};
-
-Result<Sensor> read_sensor(const std::string& name) {
-  Sensor sensor;
-  const std::size_t colon = name.rfind(':');
-  const char* const end = name.data() + name.size();
-  bool good = colon != std::string::npos && valid_id(std::string_view(name).substr(0, colon));
-  if (good) {
-    const auto parsed = std::from_chars(name.data() + colon + 1, end, sensor.station);
-    good = parsed.ec == std::errc{} && parsed.ptr == end && sensor.station >= 1 && sensor.station <= 256;
+Status Scene::check_bindable(const SceneGoal& goal) {
+  if (!position_of(goal.goal.payload)) {
+    return Error{"invalid_params",
+                 "goal " + goal.goal.id + " is of kind " + name_of(kind_of(goal.goal.payload)) +
+                     ": it has no position that a sensor could move",
+                 "", "bind a position or pose goal; another goal may be relative_to the sensor"};
   }
-  if (!good)
-    return Error{"unknown_sensor", "a sensor is named DEVICE:STATION", "/sensor",
-                 "as in simulated:1; tracker.list names them"};
-  sensor.device = name.substr(0, colon);
-  return sensor;
+  if (goal.goal.relative_to.kind != GoalBase::Kind::world) {
+    return Error{"not_available", "goal " + goal.goal.id + " is not relative to the world: no sensor moves it yet", "",
+                 "\"relative_to\":\"world\""};
+  }
+  return Ok{};
 }
-
-}  // namespace
 
 Result<SceneBinding> Scene::make_binding(Binding binding) const {
   if (!goals_.contains(binding.goal)) return unknown("goal", binding.goal, keys(goals_), "/to/goal");
@@ -40,11 +29,11 @@ Result<SceneBinding> Scene::make_binding(Binding binding) const {
   }
   if (!(std::abs(binding.scale) <= 1000.0))
     return Error{"out_of_range", "the scale is out of range", "/scale", "-1000 to 1000"};
-  const Result<Sensor> sensor = read_sensor(binding.sensor);
+  const Result<SensorName> sensor = read_sensor(binding.sensor);
   if (!sensor) return sensor.error();
+  if (const Status fits = check_bindable(goals_.at(binding.goal)); !fits) return below("/to/goal", fits.error());
   SceneBinding made;
-  made.device = sensor->device;
-  made.station = sensor->station;
+  made.sensor = *sensor;
   made.binding = std::move(binding);
   made.revision = 1;
   return made;

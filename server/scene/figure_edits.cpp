@@ -4,6 +4,23 @@
 #include "server/solver/tempus.h"
 
 namespace posed {
+namespace {
+
+bool concerns(const Goal& goal, const std::string& figure) {
+  const GoalBase& base = goal.relative_to;
+  return goal.figure == figure || (base.kind == GoalBase::Kind::segment && base.figure == figure);
+}
+
+// Another stature keeps the pose: same joints, same values. Pins stay where their segments do.
+void hand_on(const SceneFigure& before, SceneFigure& after) {
+  if (before.q.size() == after.q.size() && check_q(*after.tree, before.q)) after.q = before.q;
+  for (const auto& [name, pin] : before.entry.pins) {
+    const auto segment = after.tree->find_segment(name);
+    if (segment) after.entry.pins.emplace(after.tree->segment(*segment).name, pin);
+  }
+}
+
+}  // namespace
 
 Result<SceneFigure> Scene::make_figure(FigureEntry entry) const {
   FigureDocument document;
@@ -33,6 +50,7 @@ Result<SceneFigure> Scene::make_figure(FigureEntry entry) const {
   if (const Status checked = check_q(*figure.tree, figure.q); !checked) return below("/q", checked.error());
   entry.q.clear();
   figure.entry = std::move(entry);
+  if (const Status pinned = complete_pins(figure); !pinned) return pinned.error();
   figure.revision = 1;
   return figure;
 }
@@ -44,27 +62,30 @@ Result<Edited> Scene::set_figure(FigureEntry entry, IfRevision if_revision) {
   const auto before = figures_.find(id);
   const Revision revision = before == figures_.end() ? 0 : before->second.revision;
 
+  if (before != figures_.end()) entry.pins.clear();
   Result<SceneFigure> figure = make_figure(std::move(entry));
   if (!figure) return figure.error();
-  // Another stature keeps the pose: same joints, same values.
-  if (before != figures_.end() && before->second.q.size() == figure->q.size() &&
-      check_q(*figure->tree, before->second.q)) {
-    figure->q = before->second.q;
-  }
-  // Its goals must still find their places.
-  std::map<std::string, AttachedPoint> places;
-  for (const auto& [goal_id, goal] : goals_) {
-    if (goal.goal.figure != id) continue;
-    const Result<AttachedPoint> at = figure->tree->attach(goal.goal.at);
-    if (!at) {
-      return Error{at.error().code, "goal " + goal_id + " is held at a place that the new figure lacks", "/id",
-                   "remove the goal first"};
-    }
-    places.emplace(goal_id, *at);
-  }
-  for (const auto& [goal_id, at] : places) goals_.at(goal_id).at = at;
+  if (before != figures_.end()) hand_on(before->second, *figure);
   figure->revision = revision + 1;
-  figures_.insert_or_assign(id, std::move(*figure));
+  std::map<std::string, SceneFigure> figures = figures_;
+  figures.insert_or_assign(id, std::move(*figure));
+
+  // Goals that have to do with it must still find their places.
+  std::map<std::string, SceneGoal> goals;
+  for (const auto& [goal_id, goal] : goals_) {
+    if (!concerns(goal.goal, id)) continue;
+    Result<SceneGoal> again = make_goal(goal.goal, figures);
+    if (!again) {
+      return Error{again.error().code, "goal " + goal_id + " does not fit the new figure: " + again.error().message,
+                   "/id", "remove the goal first"};
+    }
+    again->live = goal.live;
+    again->base_live = goal.base_live;
+    again->revision = goal.revision;
+    goals.emplace(goal_id, std::move(*again));
+  }
+  for (auto& [goal_id, goal] : goals) goals_.insert_or_assign(goal_id, std::move(goal));
+  figures_ = std::move(figures);
   return Edited{id, ++revision_, revision + 1};
 }
 
@@ -73,7 +94,7 @@ Result<Edited> Scene::remove_figure(const std::string& id, IfRevision if_revisio
   if (const auto error = stale(figures_, id, if_revision)) return *error;
   std::vector<std::string> orphans;
   for (const auto& [goal_id, goal] : goals_) {
-    if (goal.goal.figure == id) orphans.push_back(goal_id);
+    if (concerns(goal.goal, id)) orphans.push_back(goal_id);
   }
   for (const std::string& goal_id : orphans) drop_goal(goal_id);
   figures_.erase(id);

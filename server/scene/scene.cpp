@@ -81,7 +81,9 @@ int Scene::clear_goals(const std::string& figure) {
 // The goal stays where the sensor left it: letting go of a thing does not throw it back.
 void Scene::let_go(SceneGoal& goal) {
   if (!goal.live) return;
-  goal.goal.position = *goal.live;
+  if (Vec3* position = position_of(goal.goal.payload)) *position = *goal.live;
+  if (auto* spring = std::get_if<PositionSpring>(&goal.spring)) spring->position = *goal.live;
+  if (auto* spring = std::get_if<PoseSpring>(&goal.spring)) spring->position = *goal.live;
   goal.live.reset();
   ++goal.revision;
 }
@@ -98,17 +100,28 @@ void Scene::settle(const std::string& figure, const std::vector<double>& q) {
 
 bool Scene::follow(const Frame& frame) {
   bool moved = false;
-  for (auto& [id, b] : bindings_) {
-    if (b.device != frame.device) continue;
+  for (auto& [id, goal] : goals_) {
+    if (goal.base_sensor.station == 0 || goal.base_sensor.device != frame.device) continue;
     for (const Sample& sample : frame.samples) {
-      if (sample.station != b.station) continue;
+      if (sample.station != goal.base_sensor.station) continue;
+      moved = moved || !goal.base_live || goal.base_live->position != sample.position ||
+              goal.base_live->rotation != sample.rotation;
+      goal.base_live = Transform{sample.position, sample.rotation};
+    }
+  }
+  for (auto& [id, b] : bindings_) {
+    if (b.sensor.device != frame.device) continue;
+    for (const Sample& sample : frame.samples) {
+      if (sample.station != b.sensor.station) continue;
       SceneGoal& goal = goals_.find(b.binding.goal)->second;
       Vec3 wanted = sample.position * b.binding.scale;
       if (b.binding.mode == Binding::Mode::relative) {
         if (!b.anchor) b.anchor = SceneBinding::Anchor{sample.position, goal.target()};
         wanted = b.anchor->target + b.binding.scale * (sample.position - b.anchor->sensor);
       }
-      Vec3 target = goal.goal.position;
+      const Vec3* placed = position_of(goal.goal.payload);
+      if (!placed) continue;
+      Vec3 target = *placed;
       if (b.binding.axes.x) target.x = wanted.x;
       if (b.binding.axes.y) target.y = wanted.y;
       if (b.binding.axes.z) target.z = wanted.z;

@@ -16,7 +16,9 @@
 #include "common/goal.h"
 #include "common/result.h"
 #include "common/scene.h"
+#include "server/scene/sensor_name.h"
 #include "server/solver/body_tree.h"
+#include "server/solver/spring_goal.h"
 
 namespace posed {
 
@@ -38,17 +40,26 @@ struct SceneFigure {
 
 struct SceneGoal {
   Goal goal;
-  AttachedPoint at;
-  std::optional<Vec3> live;  // where a bound sensor has it, in the world; no part of the document
+  AttachedPoint at;        // of kinds that take hold
+  Spring spring;           // the payload, its names resolved
+  int base_segment = -1;   // relative to a segment: which, of the figure goal.relative_to.figure
+  SensorName base_sensor;  // relative to a sensor
+  // What sensors say; no part of the document.
+  std::optional<Vec3> live;            // where a bound sensor has the goal's position, in the world
+  std::optional<Transform> base_live;  // world_from_base, of a goal relative to a sensor that has been heard
   Revision revision = 0;
 
-  const Vec3& target() const { return live ? *live : goal.position; }
+  // Of position and pose goals.
+  Vec3 target() const {
+    const Vec3* position = position_of(goal.payload);
+    return live ? *live : position ? *position : kZero;
+  }
+  bool follows_sensors() const { return live || base_live; }
 };
 
 struct SceneBinding {
   Binding binding;
-  std::string device;  // of the sensor DEVICE:STATION
-  int station = 0;
+  SensorName sensor;
   struct Anchor {
     Vec3 sensor, target;
   };
@@ -70,17 +81,23 @@ class Scene {
   // The figure that an empty id means: the only one, else "body".
   Result<const SceneFigure*> find_figure(const std::string& id) const;
 
+  // The figure that was there hands on its pose, goals and pins; the entry's own pins are used for a new figure only.
   Result<Edited> set_figure(FigureEntry entry, IfRevision if_revision);
   Result<Edited> set_goal(const GoalEdit& edit, IfRevision if_revision);
   Result<Edited> set_binding(const BindingEdit& edit, IfRevision if_revision);
-  Result<Edited> remove_figure(const std::string& id, IfRevision if_revision);  // and its goals
+  Result<Edited> remove_figure(const std::string& id, IfRevision if_revision);  // and goals of it or relative to it
   Result<Edited> remove_goal(const std::string& id, IfRevision if_revision);    // and what is bound to it
   Result<Edited> remove_binding(const std::string& id, IfRevision if_revision);
   int clear_goals(const std::string& figure);  // of all figures where empty; counts one revision
   // A pose set by hand. q is checked.
   Result<Edited> set_q(const std::string& figure, std::vector<double> q, IfRevision if_revision);
 
-  // A sensor's motion: moves bound goals. No edit, no revision. True where a target moved. Does not allocate.
+  // Holds the segment where it is now, or lets it go.
+  Result<Edited> pin(const std::string& figure, const std::string& segment, std::optional<Pin::Hold> hold,
+                     IfRevision if_revision);
+
+  // A sensor's motion: moves what is bound to it or relative to it. No edit, no revision. True where a target moved.
+  // Does not allocate.
   bool follow(const Frame& frame);
   // The solver's answer for a figure. No edit.
   void settle(const std::string& figure, const std::vector<double>& q);
@@ -88,8 +105,11 @@ class Scene {
  private:
   Status check_id(const std::string& id) const;
   Result<SceneFigure> make_figure(FigureEntry entry) const;
+  static Status complete_pins(SceneFigure& figure);
   Result<SceneGoal> make_goal(Goal goal, const std::map<std::string, SceneFigure>& figures) const;
   Result<SceneBinding> make_binding(Binding binding) const;
+  Result<std::string> default_id(const GoalEdit& edit) const;  // FIGURE.SEGMENT.KIND
+  static Status check_bindable(const SceneGoal& goal);
   static void let_go(SceneGoal& goal);
   void drop_goal(const std::string& id);
 

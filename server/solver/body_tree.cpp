@@ -30,6 +30,10 @@ Result<BodyTree> BodyTree::build(const FigureDocument& document) {
     Joint& joint = s.joint;
     joint.parent_from_joint.rotation = glm::normalize(joint.parent_from_joint.rotation);
     for (Vec3& axis : joint.axes) axis = glm::normalize(axis);
+    if (joint.swing && joint.swing->center != kZero) joint.swing->center = glm::normalize(joint.swing->center);
+    if (joint.swing) {
+      for (Vec3& corner : joint.swing->corners) corner = glm::normalize(corner);
+    }
     if (joint.bend_axis != kZero) joint.bend_axis = glm::normalize(joint.bend_axis);
 
     tree.parents_.push_back(i == 0 ? -1 : tree.segments_.find(s.parent)->second);

@@ -11,10 +11,6 @@ using namespace figure_check;
 
 namespace {
 
-bool unit(double length) {
-  return std::abs(length - 1.0) <= kUnitTolerance;
-}
-
 std::size_t axes_of(JointType type) {
   switch (type) {
     case JointType::universal:
@@ -47,24 +43,6 @@ Maybe check_axes(const Joint& joint, const std::string& path) {
   if (bend != 0.0 && !unit(bend)) {
     return bad(path + "/bend_axis", "the bend axis of joint " + joint.name + " is not of unit length",
                "divide it by its length, or leave it out");
-  }
-  return {};
-}
-
-Maybe check_limits(const Joint& joint, const std::string& path) {
-  const auto dof = static_cast<std::size_t>(degrees_of_freedom(joint.type));
-  if (!joint.limits.empty() && joint.limits.size() != dof) {
-    return bad(path + "/limits",
-               "joint " + joint.name + " has " + std::to_string(joint.limits.size()) + " limits for " +
-                   std::to_string(dof) + " degrees of freedom",
-               "give one [min, max] or null for each, or no limits at all");
-  }
-  for (std::size_t k = 0; k < joint.limits.size(); ++k) {
-    const auto& limit = joint.limits[k];
-    if (limit && !(finite(limit->min) && finite(limit->max) && limit->min <= limit->max)) {
-      return bad(at(path + "/limits", k), "a limit of joint " + joint.name + " is not a range",
-                 "give [min, max] with min <= max, in radians or metres");
-    }
   }
   return {};
 }

@@ -9,9 +9,10 @@
 namespace posed {
 
 inline constexpr int kMaxSegments = 500;
-inline constexpr int kMaxShapes = 64;      // of one segment
-inline constexpr int kMaxNames = 2000;     // sites, and aliases
-inline constexpr double kMaxLength = 1e4;  // m, any coordinate
+inline constexpr int kMaxShapes = 64;           // of one segment
+inline constexpr std::size_t kMaxCorners = 64;  // of a swing polygon
+inline constexpr int kMaxNames = 2000;          // sites, and aliases
+inline constexpr double kMaxLength = 1e4;       // m, any coordinate
 inline constexpr double kUnitTolerance = 1e-6;
 
 // The first thing wrong with the document: code "bad_figure", the path as a JSON pointer into the document

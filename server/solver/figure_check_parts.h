@@ -1,4 +1,4 @@
-// What the two halves of figure_check share; no one else includes it.
+// What the parts of figure_check share; no one else includes it.
 #pragma once
 
 #include <algorithm>
@@ -36,6 +36,13 @@ inline Maybe check_name(const std::string& path, const std::string& what, const 
   return bad(path, what + " has no valid name",
              "use 1 to 64 letters, digits, '_', '.' and '-', the first a letter, a digit or '_'");
 }
+
+inline bool unit(double length) {
+  return std::abs(length - 1.0) <= kUnitTolerance;
+}
+
+// `path`: of the joint.
+Maybe check_limits(const Joint& joint, const std::string& path);
 
 // Sites, mirror pairs and aliases. `all`: the segments by name.
 Maybe check_references(const FigureDocument& document, const Index& all);

@@ -79,11 +79,17 @@ Lines answer(const proto::Request& request) {
   }
   if (std::get_if<proto::GoalList>(params)) {
     proto::GoalListResult list;
-    list.goals.resize(1);
+    list.goals.resize(2);
     list.goals[0].goal.id = "g1";
     list.goals[0].goal.figure = "body";
     list.goals[0].goal.at = {"right_hand", {}, "fingertip"};
-    list.goals[0].goal.position = {0.5, -0.3, 1.2};
+    list.goals[0].goal.payload = PositionTarget{{0.5, -0.3, 1.2}};
+    list.goals[1].goal.id = "look";
+    list.goals[1].goal.figure = "body";
+    list.goals[1].goal.at = {"head", {}, ""};
+    list.goals[1].goal.payload = AimTarget{{1, 0, 0}, Vec3(2, 0, 1), {}};
+    list.goals[1].goal.relative_to = {GoalBase::Kind::sensor, "", "", "liberty:1"};
+    list.goals[1].goal.priority = -1;
     return reply(request, list);
   }
   if (std::get_if<proto::GoalClear>(params)) return reply(request, proto::ClearResult{3, 9});
@@ -140,7 +146,16 @@ TEST_F(Posectl, Goals) {
   EXPECT_EQ(run("goal set head 0 0 -1.5").code, 0);
   EXPECT_FALSE(has(last_line(), "weight")) << "what is not named is not sent";
   EXPECT_TRUE(has(run("goal list").out, "g1  body at right_hand/fingertip  [0.5 -0.3 1.2] m  weight 10"));
+  EXPECT_TRUE(has(run("goal list").out, "look  body at head  aim from liberty:1  weight 10  priority -1\n"));
   EXPECT_EQ(run("goal clear").out, "3 goals are removed (revision 9)\n");
+}
+
+TEST_F(Posectl, GoalsOfEveryKindAreSetAsJson) {
+  const Outcome set = run(R"(goal set '{"at":"head","aim":{"axis":[1,0,0],"point":[2,0,1]}}')");
+  EXPECT_EQ(set.code, 0) << set.err;
+  EXPECT_TRUE(has(set.out, " is set (revision 8)\n")) << set.out;
+  EXPECT_TRUE(has(last_line(), R"("aim":{"axis":[1,0,0],"point":[2,0,1]})")) << last_line();
+  EXPECT_EQ(run("goal set '{}' --weight 3").code, 2);
 }
 
 TEST_F(Posectl, ARefusalIsExplained) {

@@ -139,8 +139,6 @@ TEST(Daemon, SpringsAndWhatElseIsReservedAreRefusedNotAliased) {
   auto client = daemon.connect();
   const std::pair<const char*, const char*> reserved[] = {
       {"solver.set", R"({"method":"springs"})"},
-      {"goal.set", R"({"at":"head","aim":{"axis":[1,0,0],"point":[1,1,1]}})"},
-      {"goal.set", R"({"at":"head","position":[0,0,1],"priority":1})"},
       {"goal.set", R"({"at":"head","position":[0,0,1],"relative_to":{"object":"chair"}})"},
       {"binding.set", R"({"sensor":"simulated:1","to":{"camera":"main"}})"},
       {"solve", "{}"},
@@ -153,6 +151,42 @@ TEST(Daemon, SpringsAndWhatElseIsReservedAreRefusedNotAliased) {
     EXPECT_EQ(reply.error().code, "not_available") << method << params << reply.error().message;
   }
   EXPECT_EQ(client.call<proto::SolverResult>(proto::SolverGet{})->method, "reach_tree");
+}
+
+TEST(Daemon, WhatReachTreeDoesNotDoIsKeptAndSaid) {
+  const RunningDaemon daemon;
+  auto client = daemon.connect();
+  ASSERT_TRUE(client.call("goal.set", R"({"at":"head","aim":{"axis":[1,0,0],"point":[1,1,1]}})"));
+  ASSERT_TRUE(client.call("goal.set", R"({"balance":{"support":["left_foot","right_foot"]},"priority":1})"));
+  ASSERT_TRUE(client.call("goal.set",
+                          R"({"id":"near","at":"right_hand","position":[0,0,0.1],"relative_to":{"segment":"head"}})"));
+  const auto pinned = client.call("figure.pin", R"({"segment":"left_foot","hold":"pose"})");
+  ASSERT_TRUE(pinned) << pinned.error().message;
+  const auto last = client.call<proto::EditResult>(hand_goal({0.3, -0.3, 1.2}));
+  ASSERT_TRUE(last);
+  const proto::PoseResult pose = pose_at(client, last->revision);
+  for (const char* id : {"body.head.aim", "body.balance", "near"}) {
+    const auto* goal = find_goal(pose.pose.goals, id);
+    ASSERT_NE(goal, nullptr) << id;
+    EXPECT_EQ(goal->state, GoalState::off) << id;
+    EXPECT_EQ(goal->touch, goal->target) << id;
+  }
+  EXPECT_EQ(find_goal(pose.pose.goals, last->id)->state, GoalState::reached);
+  EXPECT_EQ(pose.notes, (std::vector<std::string>{"joints count as balls and keep no limits", "pins are not kept",
+                                                  "only position goals relative to the world pull; the others are off",
+                                                  "priorities count as equal"}));
+  const auto goals = client.call("goal.list");
+  ASSERT_TRUE(goals);
+  EXPECT_NE(goals->find(R"("kind":"aim")"), std::string::npos);
+  // They are kept with the scene.
+  ASSERT_TRUE(client.call("scene.save", R"({"name":"kinds"})"));
+  ASSERT_TRUE(client.call("scene.new", R"({"template":"empty"})"));
+  ASSERT_TRUE(client.call("scene.open", R"({"name":"kinds"})"));
+  EXPECT_EQ(*client.call("goal.list"), *goals);
+  const auto figure = client.call<proto::FigureResult>(proto::FigureGet{"body"});
+  ASSERT_TRUE(figure);
+  EXPECT_TRUE(figure->entry.pins.contains("left_foot"));
+  EXPECT_NE(client.call("scene.get")->find(R"("pins":{"left_foot":{"hold":"pose")"), std::string::npos);
 }
 
 TEST(Daemon, AWrongSegmentIsNamedWithACure) {

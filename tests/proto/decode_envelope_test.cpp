@@ -124,7 +124,7 @@ TEST(DecodeEnvelope, TheMethodIsKnownReservedOrMistyped) {
   EXPECT_EQ(typo.error.path, "/method");
   EXPECT_EQ(typo.error.hint, "did you mean goal.set?");
   for (const char* reserved :
-       {"edit.apply", "solve", "solve.batch", "figure.pin", "scene.remove", "key.set", "take.record", "play.start",
+       {"edit.apply", "solve", "solve.batch", "goal.grab", "scene.remove", "key.set", "take.record", "play.start",
         "tracker.align", "object.set", "camera.list", "goal.grab"}) {
     expect_error(call(reserved, "{}"), "not_available", "/method");
   }

@@ -82,23 +82,14 @@ TEST(DecodeParams, WordsThatAreNotKnown) {
 }
 
 TEST(DecodeParams, WhatIsReservedIsNotAvailable) {
-  const std::pair<const char*, const char*> fields[] = {{"gesture", "\"drag-1\""},
-                                                        {"once", "\"0b6f\""},
-                                                        {"kind", "\"aim\""},
-                                                        {"orientation", "{}"},
-                                                        {"aim", "{}"},
-                                                        {"plane", "{}"},
-                                                        {"line", "{}"},
-                                                        {"distance", "{}"},
-                                                        {"balance", "{}"},
-                                                        {"posture", "{}"},
-                                                        {"priority", "1"},
-                                                        {"relative_to", R"({"object":"chair"})"},
-                                                        {"scene", "\"other\""}};
+  const std::pair<const char*, const char*> fields[] = {
+      {"gesture", "\"drag-1\""}, {"once", "\"0b6f\""}, {"scene", "\"other\""}};
   for (const auto& [field, value] : fields) {
     expect_error(call("goal.set", std::string("{\"") + field + "\":" + value + "}"), "not_available",
                  std::string("/params/") + field);
   }
+  expect_error(call("goal.set", R"({"relative_to":{"object":"chair"}})"), "not_available",
+               "/params/relative_to/object");
   expect_error(call("binding.set", R"({"to":{"joint":"waist"}})"), "not_available", "/params/to/joint");
   expect_error(call("binding.set", R"({"axes":["x","rx"]})"), "not_available", "/params/axes");
   expect_error(call("binding.set", R"({"clutch":{"button":0}})"), "not_available", "/params/clutch");
@@ -110,7 +101,7 @@ TEST(DecodeParams, WhatIsReservedIsNotAvailable) {
 }
 
 TEST(DecodeParams, WhatIsReservedMayBeSaidAsItIs) {
-  params_of<GoalSet>("goal.set", R"({"kind":"position","relative_to":"world","priority":0,"aim":null,"scene":"main"})");
+  params_of<GoalSet>("goal.set", R"({"aim":null,"scene":"main"})");
   params_of<StreamSubscribe>("stream.subscribe", R"({"stream":"pose","encoding":"json"})");
 }
 
@@ -129,9 +120,9 @@ TEST(DecodeParams, OnlyEditsTakeIfRevision) {
     json request = json::parse(encode_request(1, message));
     request["params"]["if_revision"] = 7;
     const std::string method = request["method"];
-    const bool edits = method.ends_with(".set")
-                           ? method != "solver.set"
-                           : method.ends_with(".remove") || method == "pose.reset" || method == "pose.mirror";
+    const bool edits = method.ends_with(".set") ? method != "solver.set"
+                                                : method.ends_with(".remove") || method == "pose.reset" ||
+                                                      method == "pose.mirror" || method == "figure.pin";
     if (edits) {
       EXPECT_EQ(accepted(request.dump()).if_revision, 7u) << method;
     } else {
@@ -162,6 +153,86 @@ TEST(DecodeParams, UserDataIsShortAndShallow) {
   accepted(user("\"" + std::string(4094, 'x') + "\""));
   accepted(user(std::string(16, '[') + std::string(16, ']')));
   expect_error(user(std::string(17, '[') + std::string(17, ']')), "out_of_range", "/params/user");
+}
+
+TEST(DecodeParams, EveryKindHasItsPayload) {
+  const auto edit = [](const char* params) { return params_of<GoalSet>("goal.set", params).edit; };
+  EXPECT_EQ(edit(R"({"kind":"aim"})").kind, GoalKind::aim);
+  EXPECT_EQ(edit(R"({"orientation":{"quat_xyzw":[0,0,1,0]}})").orientation->rotation, quat_from_xyzw(0, 0, 1, 0));
+  const GoalEdit aim = edit(R"({"aim":{"axis":[0,0,2],"direction":[1,0,0]}})");
+  EXPECT_EQ(aim.aim->axis, Vec3(0, 0, 2));
+  EXPECT_EQ(aim.aim->direction, Vec3(1, 0, 0));
+  EXPECT_FALSE(aim.aim->point);
+  EXPECT_EQ(edit(R"({"plane":{"point":[0,0,1],"normal":[0,0,1]}})").plane->side, PlaneTarget::Side::on);
+  EXPECT_EQ(edit(R"({"plane":{"point":[0,0,1],"normal":[0,0,1],"side":"above"}})").plane->side,
+            PlaneTarget::Side::above);
+  EXPECT_EQ(edit(R"({"line":{"point":[0,0,1],"direction":[0,1,0]}})").line->direction, Vec3(0, 1, 0));
+  const GoalEdit distance = edit(R"({"distance":{"to":"head/eyes","length":0.3,"compare":"at_least"}})");
+  EXPECT_EQ(distance.distance->to.site, "eyes");
+  EXPECT_EQ(distance.distance->compare, DistanceTarget::Compare::at_least);
+  EXPECT_EQ(edit(R"({"balance":{"support":["left_foot","right_foot"],"margin":0.02}})").balance->support.size(), 2u);
+  const auto joints = edit(R"({"posture":{"joints":{"a":1.5,"b":[0,0,0,1],"c":{"deviation":0.5}}}})").posture->joints;
+  EXPECT_EQ(joints.at("a").share, std::vector<double>{1.5});
+  EXPECT_EQ(joints.at("b").share.size(), 4u);
+  EXPECT_EQ(joints.at("c").deviation, 0.5);
+}
+
+TEST(DecodeParams, PayloadsAreStrict) {
+  const auto refuse = [](const char* params, const char* code, const char* path) {
+    expect_error(call("goal.set", params), code, path);
+  };
+  refuse(R"({"kind":"look"})", "invalid_params", "/params/kind");
+  refuse(R"({"orientation":[0,0,0,1]})", "wrong_type", "/params/orientation");
+  refuse(R"({"orientation":{}})", "missing_field", "/params/orientation/quat_xyzw");
+  refuse(R"({"orientation":{"quat_xyzw":[0,0,0,2]}})", "invalid_params", "/params/orientation/quat_xyzw");
+  refuse(R"({"aim":{}})", "missing_field", "/params/aim/axis");
+  refuse(R"({"aim":{"axis":[1,0,0],"at":[0,0,0]}})", "unknown_field", "/params/aim/at");
+  refuse(R"({"plane":{"point":[0,0,0]}})", "missing_field", "/params/plane/normal");
+  refuse(R"({"plane":{"point":[0,0,0],"normal":[0,0,1],"side":"below"}})", "invalid_params", "/params/plane/side");
+  refuse(R"({"line":{"point":[0,0,0]}})", "missing_field", "/params/line/direction");
+  refuse(R"({"distance":{"to":"head"}})", "missing_field", "/params/distance/length");
+  refuse(R"({"distance":{"to":"","length":1}})", "unknown_segment", "/params/distance/to");
+  refuse(R"({"balance":{"support":"left_foot"}})", "wrong_type", "/params/balance/support");
+  refuse(R"({"posture":{"joints":{"waist":"up"}}})", "wrong_type", "/params/posture/joints/waist");
+  refuse(R"({"posture":{"joints":{"waist":{"bend":1}}}})", "unknown_field", "/params/posture/joints/waist/bend");
+  refuse(R"({"weight":{"position":1}})", "missing_field", "/params/weight/orientation");
+  refuse(R"({"priority":1.5})", "wrong_type", "/params/priority");
+  refuse(R"({"relative_to":"moon"})", "invalid_params", "/params/relative_to");
+  refuse(R"({"relative_to":{}})", "missing_field", "/params/relative_to/segment");
+  refuse(R"({"relative_to":{"sensor":"liberty:1","segment":"head"}})", "invalid_params", "/params/relative_to");
+}
+
+TEST(DecodeParams, APinNamesWhatItHolds) {
+  EXPECT_EQ(params_of<FigurePin>("figure.pin", R"({"segment":"left_foot","hold":"pose"})").hold, Pin::Hold::pose);
+  EXPECT_FALSE(params_of<FigurePin>("figure.pin", R"({"segment":"left_foot","hold":null})").hold);
+  expect_error(call("figure.pin", R"({"segment":"left_foot"})"), "missing_field", "/params/hold");
+  expect_error(call("figure.pin", R"({"segment":"left_foot","hold":"all"})"), "invalid_params", "/params/hold");
+}
+
+TEST(DecodeParams, SwingAndTwist) {
+  const auto figure = [](const char* joint) {
+    return call("figure.set",
+                std::string(R"({"id":"a","document":{"format":"posed.figure/1","root":"a","segments":[{"name":"a",
+      "touch_point":[0,0,0],"joint":{"name":"j","type":"ball","position":[0,0,0],)") +
+                    joint + "}}]}}");
+  };
+  const auto joint = [&](const char* text) {
+    return std::get<FigureSet>(accepted(figure(text)).params).document->segments[0].joint;
+  };
+  const Joint ellipse = joint(R"("swing":{"ellipse":[0.8,0.5],"center":[0,0,1]},"twist":[-1,0.5])");
+  EXPECT_EQ(ellipse.swing->kind, Swing::Kind::ellipse);
+  EXPECT_EQ(ellipse.swing->radii[1], 0.5);
+  EXPECT_EQ(ellipse.swing->center, kZ);
+  EXPECT_EQ(ellipse.twist->min, -1.0);
+  const Joint polygon = joint(R"("swing":{"polygon":[[1,0,0],[0,1,0],[0,0,1]]})");
+  EXPECT_EQ(polygon.swing->kind, Swing::Kind::polygon);
+  EXPECT_EQ(polygon.swing->corners[1], kY);
+  const std::string path = "/params/document/segments/0/joint/";
+  expect_error(figure(R"("swing":{})"), "invalid_params", path + "swing");
+  expect_error(figure(R"("swing":{"ellipse":[1,1],"polygon":[]})"), "invalid_params", path + "swing");
+  expect_error(figure(R"("swing":{"ellipse":[1]})"), "wrong_type", path + "swing/ellipse");
+  expect_error(figure(R"("swing":{"polygon":[[1,0,0]],"center":[0,0,1]})"), "unknown_field", path + "swing/center");
+  expect_error(figure(R"("twist":1)"), "wrong_type", path + "twist");
 }
 
 TEST(DecodeParams, APlaceIsASegmentAPointOrASite) {

@@ -25,7 +25,7 @@ SceneDocument rich_scene() {
   Goal goal;
   goal.figure = "body";
   goal.at = {"right_hand", Vec3(0.1, 0.2, 0.3), ""};
-  goal.position = {1.0 / 3.0, 2e-8, -5};
+  goal.payload = PositionTarget{{1.0 / 3.0, 2e-8, -5}};
   goal.weight = 0.1;
   goal.tolerance = 0.7;
   goal.enabled = false;
@@ -76,7 +76,7 @@ TEST(Documents, ASceneComesBackToTheLastDigit) {
   EXPECT_EQ(encode_scene(*back), text);
   EXPECT_EQ(back->figures.at("body").q, scene.figures.at("body").q);
   EXPECT_EQ(back->figures.at("body").user, scene.figures.at("body").user);
-  EXPECT_EQ(back->goals.at("g1").position, scene.goals.at("g1").position);
+  EXPECT_EQ(*position_of(back->goals.at("g1").payload), *position_of(scene.goals.at("g1").payload));
   EXPECT_EQ(back->goals.at("g1").at, scene.goals.at("g1").at);
   EXPECT_FALSE(back->goals.at("g1").enabled);
   EXPECT_EQ(back->goals.at("g1").user, "null");
@@ -84,6 +84,56 @@ TEST(Documents, ASceneComesBackToTheLastDigit) {
   EXPECT_EQ(back->bindings.at("b1").scale, -0.1);
   // Set out for reading it is the same document.
   EXPECT_EQ(encode_scene(*decode_scene(encode_scene(scene, 2))), text);
+}
+
+TEST(Documents, GoalsOfEveryKindComeBack) {
+  const Quat turned = quat_from_xyzw(0.5, 0.5, 0.5, 0.5);
+  const GoalPayload payloads[] = {
+      PositionTarget{{1, 2, 1.0 / 3.0}},
+      OrientationTarget{turned},
+      PoseTarget{{1, 2, 3}, turned},
+      AimTarget{{0, 0, 2}, {}, Vec3(1, 0, 0)},
+      PlaneTarget{{0, 0, 1}, {0, 1, 1}, PlaneTarget::Side::above},
+      LineTarget{{0, 0, 1}, {0, 1, 0}},
+      DistanceTarget{{"head", {}, "eyes"}, 0.3, DistanceTarget::Compare::at_most},
+      BalanceTarget{{{"left_foot", {}, ""}, {"right_foot", Vec3(0, 0, 1), ""}}, 0.02},
+      PostureTarget{"", {{"left_elbow", {{}, {}, 1.2, {}}}, {"waist", {{0, 0, 0, 1}, {}, {}, {}}}}}};
+  for (const GoalPayload& payload : payloads) {
+    SceneDocument scene;
+    Goal& goal = scene.goals["g"];
+    goal.figure = "body";
+    goal.payload = payload;
+    if (takes_hold(kind_of(payload))) goal.at.segment = "head";
+    goal.relative_to = {GoalBase::Kind::segment, "body", "head", ""};
+    goal.weight.orientation = 0.5;
+    goal.priority = -2;
+    const std::string text = encode_scene(scene);
+    EXPECT_NE(text.find(std::string("\"kind\":\"") + name_of(kind_of(payload)) + '"'), std::string::npos) << text;
+    const Result<SceneDocument> back = decode_scene(text);
+    ASSERT_TRUE(back) << back.error().path << back.error().message;
+    EXPECT_EQ(encode_scene(*back), text);
+    EXPECT_EQ(back->goals.at("g").payload.index(), payload.index());
+    EXPECT_EQ(back->goals.at("g").relative_to, goal.relative_to);
+    EXPECT_EQ(back->goals.at("g").weight, goal.weight);
+  }
+}
+
+TEST(Documents, PinsSwingAndTwistComeBack) {
+  SceneDocument scene;
+  FigureEntry& body = scene.figures["body"];
+  body.document = *tempus(1.75);
+  body.pins["left_foot"] = {Pin::Hold::pose, Vec3(0, 0.1, 0), quat_from_xyzw(0, 0, 1, 0)};
+  body.pins["head"] = {Pin::Hold::orientation, {}, {}};
+  Joint& joint = body.document->segments[1].joint;
+  joint.limits.clear();
+  joint.swing = Swing{Swing::Kind::ellipse, kZ, {0.8, 0.5}, {}};
+  joint.twist = Limit{-1, 0.5};
+  body.document->segments[2].joint.swing = Swing{Swing::Kind::polygon, kZero, {}, {kX, kY, kZ}};
+  const std::string text = encode_scene(scene);
+  EXPECT_NE(text.find(R"("swing":{"ellipse":[0.8,0.5],"center":[0.0,0.0,1.0]},"twist":[-1.0,0.5])"), std::string::npos);
+  EXPECT_NE(text.find(R"("pins":{"head":{"hold":"orientation"},"left_foot":{"hold":"pose","position":[0.0,0.1,0.0],)"),
+            std::string::npos);
+  EXPECT_EQ(encode_scene(*decode_scene(text)), text);
 }
 
 TEST(Documents, TheKeysAreTheIds) {
@@ -105,7 +155,7 @@ TEST(Documents, WhatIsWrongIsToldWithItsPath) {
   broken(R"([{"op":"remove","path":"/goals"}])", "bad_scene", "/goals");
   broken(R"([{"op":"add","path":"/extra","value":1}])", "bad_scene", "/extra");
   broken(R"([{"op":"replace","path":"/goals/g1/weight","value":"x"}])", "bad_scene", "/goals/g1/weight");
-  broken(R"([{"op":"add","path":"/goals/g1/priority","value":1}])", "not_available", "/goals/g1/priority");
+  broken(R"([{"op":"add","path":"/goals/g1/priority","value":1.5}])", "bad_scene", "/goals/g1/priority");
   broken(R"([{"op":"add","path":"/objects/chair","value":{}}])", "not_available", "/objects");
   broken(R"([{"op":"replace","path":"/figures/own/document/segments/3/joint/type","value":"knot"}])", "bad_scene",
          "/figures/own/document/segments/3/joint/type");
@@ -139,7 +189,7 @@ TEST(Documents, PatchesLeadFromOneToTheOther) {
 TEST(Documents, APatchIsSmall) {
   SceneDocument scene = rich_scene();
   const std::string before = encode_scene(scene);
-  scene.goals["g1"].position.x = 0.5;
+  position_of(scene.goals["g1"].payload)->x = 0.5;
   EXPECT_EQ(diff(before, encode_scene(scene)), R"([{"op":"replace","path":"/goals/g1/position/0","value":0.5}])");
 }
 

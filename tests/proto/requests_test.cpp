@@ -17,6 +17,14 @@ std::vector<Params> full_messages() {
   goal.enabled = false;
   goal.label = std::string("\xc3\xa9\"\\\n");
   goal.user = std::string(R"({"b":[1,2.5,null],"a":{}})");
+  GoalEdit pose;
+  pose.kind = GoalKind::pose;
+  pose.orientation = OrientationTarget{quat_from_xyzw(0.5, 0.5, 0.5, 0.5)};
+  pose.relative_to = GoalBase{GoalBase::Kind::segment, "body", "head", ""};
+  GoalWeight both = 4.0;
+  both.orientation = 0.5;
+  pose.weight = both;
+  pose.priority = -3;
   BindingEdit binding;
   binding.id = "b1";
   binding.sensor = "liberty:2";
@@ -32,7 +40,9 @@ std::vector<Params> full_messages() {
           figure,
           FigureGet{"body"},
           FigureRemove{"body"},
+          FigurePin{"body", "left_foot", Pin::Hold::pose},
           GoalSet{goal},
+          GoalSet{pose},
           GoalGet{"g1"},
           GoalRemove{"g1"},
           GoalClear{"body"},
@@ -67,7 +77,7 @@ void expect_round_trip(const Params& message) {
 
 TEST(Requests, EveryMethodComesThrough) {
   const std::vector<Params> messages = every_message();
-  ASSERT_EQ(messages.size(), 34u);
+  ASSERT_EQ(messages.size(), 35u);
   for (const Params& message : messages) expect_round_trip(message);
 }
 
@@ -96,7 +106,7 @@ TEST(Requests, OfAGoalSayWhatTheyChangeAndNoMore) {
   GoalEdit edit;
   edit.id = "g1";
   edit.position = Vec3(0.5, -0.3, 1.25);
-  edit.weight = Patched<double>::reset();
+  edit.weight = Patched<GoalWeight>::reset();
   EXPECT_EQ(
       encode_request(3, GoalSet{edit}),
       R"({"jsonrpc":"2.0","id":3,"method":"goal.set","params":{"id":"g1","position":[0.5,-0.3,1.25],"weight":null}})");

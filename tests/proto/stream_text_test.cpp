@@ -18,7 +18,13 @@ FigurePose random_pose(std::mt19937& random, int segments) {
     pose.world_from_segment.push_back({vec3(), q});
     for (const double v : xyzw(q)) pose.q.push_back(v);
   }
-  GoalFrame goal{"g1", vec3(), vec3(), 0.25, vec3(), GoalState::unreachable, {{"g2", 0.0}, {"", 0.125}}};
+  GoalFrame goal{"g1",
+                 vec3(),
+                 vec3(),
+                 0.25,
+                 vec3(),
+                 GoalState::unreachable,
+                 {{"g2", 0.0}, {"", 0.125}, {"", 0.0, "right_elbow", Cause::Side::swing}}};
   pose.goals = {goal};
   pose.cost = 0.1;
   pose.status = SolveStatus::stalled;
@@ -83,7 +89,8 @@ TEST(StreamText, APoseFrameSaysAllThatAReaderNeeds) {
   EXPECT_EQ(goal["id"], "g1");
   EXPECT_EQ(goal["error"], 0.25);
   EXPECT_EQ(goal["state"], "unreachable");
-  EXPECT_EQ(goal["causes"], json::parse(R"([{"goal":"g2"},{"beyond_m":0.125}])"));
+  EXPECT_EQ(goal["causes"],
+            json::parse(R"([{"goal":"g2"},{"beyond_m":0.125},{"limit":"right_elbow","side":"swing"}])"));
   for (int k = 0; k < 3; ++k) {
     EXPECT_NEAR(goal["touch"][k], pose.goals[0].touch[k], kMetre * 1.0001);
     EXPECT_NEAR(goal["target"][k], pose.goals[0].target[k], kMetre * 1.0001);
@@ -196,6 +203,8 @@ TEST(StreamText, AClientReadsThemAll) {
   // What was rounded once stays as it is.
   EXPECT_EQ(encode_pose_frame(812, *pose, {}), encode_pose_frame(812, *decode_message<PoseData>(in->data), {}));
   EXPECT_EQ(pose->figures[0].goals[0].causes[1].beyond_m, 0.125);
+  EXPECT_EQ(pose->figures[0].goals[0].causes[2].limit, "right_elbow");
+  EXPECT_EQ(pose->figures[0].goals[0].causes[2].side, Cause::Side::swing);
   const Result<Incoming> lost = decode_incoming(encode_lost(Stream::stats, 14));
   ASSERT_TRUE(lost);
   EXPECT_EQ(lost->method, "stream.lost");

@@ -66,6 +66,26 @@ describe("the model", () => {
     expect(model.goalTarget("g1")).toEqual([0, 0, 3]);
   });
 
+  it("shows what is no position in the world, and does not move it", () => {
+    const model = new Model();
+    const position: Vec3 = [0, 0, 1];
+    model.takeScene({
+      revision: 7,
+      document: {
+        goals: {
+          g1: { kind: "aim", at: "head" },
+          held: { kind: "position", at: "head", position, relative_to: "world" },
+          near: { kind: "position", at: "head", position, relative_to: { figure: "body", segment: "neck" } },
+          calm: { kind: "posture" },
+        },
+      },
+    });
+    expect(["g1", "held", "near", "calm", "gone"].map((id) => model.movable(id))).toEqual([false, true, false, false, false]);
+    expect(["g1", "held", "near", "calm"].map((id) => model.goalTarget(id))).toEqual([undefined, position, undefined, undefined]);
+    pose(model, 7, [0, 0, 2]);
+    expect(model.goalTarget("g1")).toEqual([0, 0, 2]);
+  });
+
   it("ends the local echo with the pose that has the last edit, not before", () => {
     const model = new Model();
     model.setLocalTarget("g1", [0, 0, 3]);

@@ -6,6 +6,7 @@ describe("words", () => {
   it("name what a goal pulls", () => {
     expect(atText("right_hand")).toBe("right hand");
     expect(atText("right_hand/fingertip")).toBe("right hand / fingertip");
+    expect(atText(undefined)).toBe("the whole figure");
     expect(atText({ segment: "head", point: [0, 0, 0.1] })).toBe("head (0.00, 0.00, 0.10)");
   });
 
@@ -14,6 +15,7 @@ describe("words", () => {
     expect(errorText(0.359)).toBe("359 mm");
     expect(causesText([{ goal: "g2" }, { beyond_m: 0.12 }])).toBe("held by g2 · 120 mm beyond reach");
     expect(causesText([{ goal: "left_knee" }, { goal: "body.right_hand.position" }])).toBe("held by left knee, right hand");
+    expect(causesText([{ limit: "right_elbow", side: "max" }, { goal: "g2" }])).toBe("held by g2 · limited by right elbow (max)");
     expect(causesText(undefined)).toBe("");
     expect([costText(3.08e-31), costText(0.01234), costText(4.5)]).toEqual(["0", "0.0123", "4.5"]);
   });

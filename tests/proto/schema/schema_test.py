@@ -95,15 +95,42 @@ HINGED = {
     "sites": {"knob": {"segment": "door", "point": [0.9, 0, 0]}, "door/edge": {"segment": "door", "point": [1, 0, 0]}},
     "mirror": [["door", "drawer"]], "aliases": {"flap": "door"}, "lever": 0.5,
 }
+BALLS = {
+    "format": "posed.figure/1", "root": "a",
+    "segments": [
+        {"name": "a", "touch_point": [0, 0, 1],
+         "joint": {"name": "j", "type": "ball", "position": [0, 0, 0], "twist": [-1, 0.5], "limits": [],
+                   "swing": {"ellipse": [0.8, 3.1], "center": [0, 0, 1]}}},
+        {"name": "b", "parent": "a", "touch_point": [0, 0, 1],
+         "joint": {"name": "k", "type": "ball", "position": [0, 0, 1],
+                   "swing": {"polygon": [[1, 0, 0], [0, 1, 0], [0, 0, 1]]}}}],
+}
 SCENE = {
     "format": "posed.scene/1",
-    "figures": {"body": {"template": "tempus", "stature": 1.6, "label": "Ana", "user": {"a": [1]}},
+    "figures": {"body": {"template": "tempus", "stature": 1.6, "label": "Ana", "user": {"a": [1]},
+                         "pins": {"left_foot": {"hold": "pose", "position": [0, 0.1, 0], "quat_xyzw": [0, 0, 0, 1]},
+                                  "head": {"hold": "orientation"}}},
                 "cabinet": {"document": HINGED, "q": [0.5, 0.1]}},
     "goals": {
         "g1": {"figure": "body", "at": "right_hand/fingertip", "position": [0.5, -0.3, 1.2], "kind": "position",
                "relative_to": "world", "weight": 0, "priority": 0, "tolerance": 0.01, "enabled": False, "user": None},
         "g2": {"figure": "cabinet", "at": {"segment": "door", "point": [1, 0, 0]}, "position": [1, 0, 1]},
-        "g3": {"figure": "cabinet", "at": "/knob", "position": [1, 0, 1]}},
+        "g3": {"figure": "cabinet", "at": "/knob", "position": [1, 0, 1]},
+        "turn": {"figure": "body", "at": "head", "orientation": {"quat_xyzw": [0, 0, 0, 1]}, "priority": -100},
+        "hold": {"figure": "body", "at": "head", "kind": "pose", "position": [0, 0, 1],
+                 "orientation": {"quat_xyzw": [0, 0, 1, 0]}, "weight": {"position": 1, "orientation": 0},
+                 "relative_to": {"figure": "cabinet", "segment": "door"}},
+        "look": {"figure": "body", "at": "head/eyes", "aim": {"axis": [2, 0, 0], "point": [1, 1, 1]},
+                 "relative_to": {"sensor": "liberty:2"}},
+        "face": {"figure": "body", "at": "head", "aim": {"axis": [2, 0, 0], "direction": [0, 1, 0]},
+                 "relative_to": {"segment": "neck"}},
+        "table": {"figure": "body", "at": "left_hand", "plane": {"point": [0, 0, 1], "normal": [0, 0, 3], "side": "above"}},
+        "rail": {"figure": "body", "at": "left_hand", "line": {"point": [0, 0, 1], "direction": [0, 1, 0]}},
+        "apart": {"figure": "body", "at": "left_hand", "distance": {"to": "head", "length": 0.3, "compare": "at_least"}},
+        "stand": {"figure": "body", "balance": {"support": ["left_foot", {"segment": "head", "point": [0, 0, 0]}], "margin": 0.1}},
+        "calm": {"figure": "body", "posture": {"pose": "start"}},
+        "bend": {"figure": "body", "posture": {"joints": {"left_elbow": {"deviation": 1}, "waist": [0, 0, 0, 1]}}},
+        "shut": {"figure": "cabinet", "posture": {"joints": {"j1": 0.2, "j2": [0.1]}}}},
     "objects": {}, "cameras": {},
     "bindings": {"b1": {"sensor": "simulated:1", "to": {"goal": "g1"}, "axes": ["x", "z"], "mode": "relative",
                         "scale": -2, "label": ""}},
@@ -127,6 +154,15 @@ BROKEN_FIGURES = [  # a path of HINGED and the value that breaks it
     ("/sites/knob/point", [0, 0]), ("/sites/knob/surplus", 1), ("/sites/a b", {"segment": "door", "point": [0, 0, 0]}),
     ("/sites/a~b~c", {"segment": "door", "point": [0, 0, 0]}), ("/mirror/0", ["door"]), ("/mirror/0", ["door", "door"]),
     ("/aliases/a b", "door"), ("/aliases/flap", 7),
+    (DOOR + "/joint/swing", {"ellipse": [1, 1]}), (DOOR + "/joint/twist", [0, 1]),
+]
+BROKEN_BALLS = [  # a path of BALLS
+    ("/segments/0/joint/swing", {}), ("/segments/0/joint/swing/ellipse", [1]), ("/segments/0/joint/swing/ellipse", [0, 1]),
+    ("/segments/0/joint/swing/ellipse", [1, 4]), ("/segments/0/joint/swing/center", [0, 0, 2]),
+    ("/segments/0/joint/swing/polygon", [[1, 0, 0], [0, 1, 0], [0, 0, 1]]), ("/segments/0/joint/twist", [0]),
+    ("/segments/0/joint/twist", [-4, 0]), ("/segments/0/joint/type", "fixed"), ("/segments/0/joint/limits", [None] * 3),
+    ("/segments/1/joint/swing/polygon", [[1, 0, 0], [0, 1, 0]]), ("/segments/1/joint/swing/polygon/0", [2, 0, 0]),
+    ("/segments/1/joint/swing/center", [0, 0, 1]),
 ]
 BROKEN_SCENES = [  # a path of SCENE
     ("/format", "posed.scene/2"), ("/format", NONE), ("/figures", NONE), ("/goals", NONE), ("/bindings", NONE),
@@ -138,7 +174,22 @@ BROKEN_SCENES = [  # a path of SCENE
     ("/goals/g1/figure", NONE), ("/goals/g1/at", NONE), ("/goals/g1/at", ""), ("/goals/g1/at", 7),
     ("/goals/g2/at/point", NONE), ("/goals/g2/at/surplus", 1), ("/goals/g2/at/point", [0, 0, 1e5]),
     ("/goals/g1/position", [0, 0]), ("/goals/g1/position", [0, 0, 2e6]), ("/goals/g1/weight", -1),
-    ("/goals/g1/weight", 2e9), ("/goals/g1/tolerance", -1), ("/goals/g1/priority", 1), ("/goals/g1/kind", "aim"),
+    ("/goals/g1/weight", 2e9), ("/goals/g1/tolerance", -1), ("/goals/g1/priority", 101), ("/goals/g1/priority", 0.5),
+    ("/goals/g1/kind", "aim"), ("/goals/g1/aim", {"axis": [1, 0, 0], "point": [0, 0, 0]}), ("/goals/g1/position", NONE),
+    ("/goals/g1/weight", {"position": 1, "orientation": 1}), ("/goals/hold/weight", {"position": 1}),
+    ("/goals/hold/weight/orientation", -1), ("/goals/hold/kind", "position"), ("/goals/hold/relative_to/segment", NONE),
+    ("/goals/hold/relative_to", {"object": "chair"}), ("/goals/hold/relative_to/sensor", "liberty:1"),
+    ("/goals/look/relative_to/sensor", "liberty"), ("/goals/turn/orientation", {}),
+    ("/goals/turn/orientation/quat_xyzw", [0, 0, 0, 2]), ("/goals/look/aim/axis", [0, 0, 0]),
+    ("/goals/look/aim/point", NONE), ("/goals/look/aim/direction", [1, 0, 0]), ("/goals/look/at", NONE),
+    ("/goals/table/plane/normal", NONE), ("/goals/table/plane/side", "below"), ("/goals/rail/line/direction", [0, 0, 0]),
+    ("/goals/apart/distance/length", -1), ("/goals/apart/distance/to", NONE), ("/goals/apart/distance/compare", "less"),
+    ("/goals/apart/relative_to", {"segment": "head"}), ("/goals/stand/balance/support", []), ("/goals/stand/at", "head"),
+    ("/goals/stand/balance/margin", -1), ("/goals/calm/posture", {}), ("/goals/calm/posture/pose", "sitting"),
+    ("/goals/calm/posture/joints", {"j1": 1}), ("/goals/bend/posture/joints/left_elbow", {"deviation": 4}),
+    ("/goals/bend/posture/joints/left_elbow", {"bend": 1}), ("/goals/bend/posture/joints/left_elbow", "up"),
+    ("/figures/body/pins/head/hold", "all"), ("/figures/body/pins/head/hold", NONE),
+    ("/figures/body/pins/head/position", [0, 0, 1e7]), ("/figures/body/pins/head/surplus", 1),
     ("/goals/g1/relative_to", "moon"), ("/goals/g1/enabled", 1), ("/goals/g1/surplus", 1),
     ("/goals/-g", {"figure": "body", "at": "head", "position": [0, 0, 0]}), ("/bindings/b1/sensor", NONE),
     ("/bindings/b1/sensor", "simulated"), ("/bindings/b1/sensor", "simulated:0"),
@@ -168,6 +219,7 @@ class Schemas(unittest.TestCase):
     def test_good_figures(self):
         self.assert_good("figure", TEMPUS)
         self.assert_good("figure", HINGED)
+        self.assert_good("figure", BALLS)
 
     def test_good_scenes(self):
         self.assert_good("scene", SCENE)
@@ -185,6 +237,7 @@ class Schemas(unittest.TestCase):
 
     def test_broken_figures(self):
         self.assert_broken("figure", HINGED, BROKEN_FIGURES)
+        self.assert_broken("figure", BALLS, BROKEN_BALLS)
 
     def test_broken_scenes(self):
         self.assert_broken("scene", SCENE, BROKEN_SCENES)

@@ -14,8 +14,8 @@ class BindingEdits : public SceneTest {
 TEST_F(BindingEdits, WithoutAnIdTheSensorNamesIt) {
   expect_edited("simulated.1", 1, [&] { return scene.set_binding(binding_edit("", "g1"), {}); });
   const SceneBinding& made = scene.bindings().at("simulated.1");
-  EXPECT_EQ(made.device, "simulated");
-  EXPECT_EQ(made.station, 1);
+  EXPECT_EQ(made.sensor.device, "simulated");
+  EXPECT_EQ(made.sensor.station, 1);
   EXPECT_EQ(made.binding.mode, Binding::Mode::absolute);
   EXPECT_EQ(made.binding.scale, 1.0);
 }
@@ -102,10 +102,10 @@ TEST_F(BindingEdits, ComparesTheBindingsOwnRevision) {
 TEST_F(BindingEdits, LettingGoLeavesTheGoalWhereTheSensorHadIt) {
   ASSERT_TRUE(scene.set_binding(binding_edit("b1", "g1"), {}));
   ASSERT_TRUE(scene.follow(frame({1, 2, 3})));
-  ASSERT_NE(goal("g1").position, Vec3(1, 2, 3));
+  ASSERT_NE(position("g1"), Vec3(1, 2, 3));
   expect_edited("b1", 0, [&] { return scene.remove_binding("b1", {}); });
   EXPECT_EQ(target("g1"), Vec3(1, 2, 3));
-  EXPECT_EQ(goal("g1").position, Vec3(1, 2, 3));
+  EXPECT_EQ(position("g1"), Vec3(1, 2, 3));
   // Its document has changed, and whoever read it before must hear so.
   EXPECT_EQ(scene.goals().at("g1").revision, 2u);
 }
@@ -121,7 +121,7 @@ TEST_F(BindingEdits, TakingAnotherGoalLetsGoOfTheFirst) {
   ASSERT_TRUE(scene.follow(frame({1, 2, 3})));
   ASSERT_TRUE(scene.set_binding(binding_edit("b1", "g2"), {}));
   EXPECT_EQ(target("g1"), Vec3(1, 2, 3));
-  EXPECT_EQ(goal("g1").position, Vec3(1, 2, 3));
+  EXPECT_EQ(position("g1"), Vec3(1, 2, 3));
   EXPECT_EQ(scene.goals().at("g1").revision, 2u);
 }
 

@@ -16,7 +16,7 @@ TEST_F(Follow, AbsoluteGoesWhereTheSensorIs) {
   EXPECT_TRUE(scene.follow(frame({1, 2, 3})));
   EXPECT_EQ(target("g1"), Vec3(1, 2, 3));
   // The document keeps the place that was set: motion is no edit.
-  EXPECT_EQ(goal("g1").position, Vec3(0.4, -0.3, 1.2));
+  EXPECT_EQ(position("g1"), Vec3(0.4, -0.3, 1.2));
 }
 
 TEST_F(Follow, IsNoEdit) {

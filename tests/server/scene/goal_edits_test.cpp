@@ -11,7 +11,7 @@ TEST_F(GoalEdits, WithoutAnIdThePlaceNamesIt) {
   edit.position = Vec3(0.1, 0.2, 0.3);
   expect_edited("body.right_hand.position", 2, [&] { return scene.set_goal(edit, {}); });
   EXPECT_EQ(scene.goals().size(), 1u);
-  EXPECT_EQ(goal("body.right_hand.position").position, Vec3(0.1, 0.2, 0.3));
+  EXPECT_EQ(position("body.right_hand.position"), Vec3(0.1, 0.2, 0.3));
 
   edit.at = Attachment{"right_hand", {}, "fingertip"};
   expect_edited("body.right_hand.fingertip.position", 1, [&] { return scene.set_goal(edit, {}); });
@@ -37,7 +37,7 @@ TEST_F(GoalEdits, OnlyTheNamedFieldsChange) {
   move.id = "g1";
   move.position = Vec3(1, 2, 3);
   expect_edited("g1", 2, [&] { return scene.set_goal(move, {}); });
-  EXPECT_EQ(goal("g1").position, Vec3(1, 2, 3));
+  EXPECT_EQ(position("g1"), Vec3(1, 2, 3));
   EXPECT_EQ(goal("g1").at, *first.at);
   EXPECT_EQ(goal("g1").weight, 40.0);
   EXPECT_EQ(goal("g1").tolerance, 0.01);
@@ -56,7 +56,8 @@ TEST_F(GoalEdits, NullRestoresTheDefaults) {
   ASSERT_TRUE(scene.set_goal(first, {}));
   GoalEdit null;
   null.id = "g1";
-  null.weight = null.tolerance = Patched<double>::reset();
+  null.weight = Patched<GoalWeight>::reset();
+  null.tolerance = Patched<double>::reset();
   null.enabled = Patched<bool>::reset();
   null.label = null.user = Patched<std::string>::reset();
   ASSERT_TRUE(scene.set_goal(null, {}));

@@ -69,8 +69,10 @@ class SceneTest : public ::testing::Test {
     return frame;
   }
 
-  const Vec3& target(const std::string& goal) const { return scene.goals().at(goal).target(); }
+  Vec3 target(const std::string& goal) const { return scene.goals().at(goal).target(); }
   const Goal& goal(const std::string& id) const { return scene.goals().at(id).goal; }
+
+  const Vec3& position(const std::string& id) const { return *position_of(goal(id).payload); }
 
   // All that an edit could change, as text.
   std::string snapshot() const {

@@ -70,6 +70,23 @@ TEST(BodyTree, RestOfAFreeRootIsItsPlaceInTheWorld) {
   EXPECT_EQ(rest[10], 1.0);
 }
 
+TEST(BodyTree, NormalisesSwing) {
+  FigureDocument d = column(3, 1.0);
+  d.segments[1].joint.swing = Swing{Swing::Kind::ellipse, kZ * (1.0 + 5e-7), {0.8, 0.5}, {}};
+  d.segments[1].joint.twist = Limit{-M_PI, M_PI};
+  d.segments[2].joint.swing = Swing{Swing::Kind::polygon, kZero, {}, {kX, kY * (1.0 - 5e-7), kZ}};
+  const auto tree = test::build(d);
+  EXPECT_EQ(tree->joint(1).swing->center, kZ);
+  EXPECT_NEAR(tree->joint(2).swing->corners[1].y, 1.0, 1e-15);
+}
+
+Swing ellipse(double a, double b) {
+  return Swing{Swing::Kind::ellipse, kZero, {a, b}, {}};
+}
+Swing polygon(std::vector<Vec3> corners) {
+  return Swing{Swing::Kind::polygon, kZero, {}, std::move(corners)};
+}
+
 struct BadFigure {
   const char* what;
   const char* path;
@@ -131,6 +148,53 @@ const BadFigure kBadFigures[] = {
     {"a limit of nan", "/segments/3/joint/limits/2",
      [](auto& d) {
        d.segments[3].joint.limits = {std::nullopt, std::nullopt, Limit{0, kNan}};
+     }},
+    {"swing of a universal joint", "/segments/2/joint/swing",
+     [](auto& d) {
+       d.segments[2].joint.type = JointType::universal, d.segments[2].joint.axes = {kX, kY},
+       d.segments[2].joint.swing = ellipse(1, 1);
+     }},
+    {"twist of the root", "/segments/0/joint/twist",
+     [](auto& d) {
+       d.segments[0].joint.twist = Limit{0, 1};
+     }},
+    {"swing and limits", "/segments/2/joint/swing",
+     [](auto& d) { d.segments[2].joint.swing = ellipse(1, 1), d.segments[2].joint.limits.resize(3); }},
+    {"a swing radius of nothing", "/segments/2/joint/swing/ellipse/1",
+     [](auto& d) { d.segments[2].joint.swing = ellipse(1, 0); }},
+    {"a swing radius of half a turn", "/segments/2/joint/swing/ellipse/0",
+     [](auto& d) { d.segments[2].joint.swing = ellipse(M_PI, 1); }},
+    {"a swing radius of nan", "/segments/2/joint/swing/ellipse/0",
+     [](auto& d) { d.segments[2].joint.swing = ellipse(kNan, 1); }},
+    {"a swing centre not unit", "/segments/2/joint/swing/center",
+     [](auto& d) { d.segments[2].joint.swing = ellipse(1, 1), d.segments[2].joint.swing->center = kX * 2.0; }},
+    {"a polygon of two", "/segments/2/joint/swing/polygon",
+     [](auto& d) {
+       d.segments[2].joint.swing = polygon({kX, kY});
+     }},
+    {"a corner not unit", "/segments/2/joint/swing/polygon/1",
+     [](auto& d) {
+       d.segments[2].joint.swing = polygon({kX, kY * 1.1, kZ});
+     }},
+    {"a clockwise polygon", "/segments/2/joint/swing/polygon/2",
+     [](auto& d) {
+       d.segments[2].joint.swing = polygon({kX, kZ, kY});
+     }},
+    {"a corner twice", "/segments/2/joint/swing/polygon/2",
+     [](auto& d) {
+       d.segments[2].joint.swing = polygon({kX, kY, kY, kZ});
+     }},
+    {"a dent", "/segments/2/joint/swing/polygon/3",
+     [](auto& d) {
+       d.segments[2].joint.swing = polygon({kX, kY, glm::normalize(Vec3(1, 1, 1)), kZ});
+     }},
+    {"a twist beyond a turn", "/segments/2/joint/twist",
+     [](auto& d) {
+       d.segments[2].joint.twist = Limit{-4, 0};
+     }},
+    {"a twist the wrong way round", "/segments/2/joint/twist",
+     [](auto& d) {
+       d.segments[2].joint.twist = Limit{1, 0};
      }},
     {"a touch point of nan", "/segments/2/touch_point", [](auto& d) { d.segments[2].touch_point.x = kNan; }},
     {"a touch point far off", "/segments/2/touch_point", [](auto& d) { d.segments[2].touch_point.x = 1e300; }},

@@ -77,7 +77,9 @@ class GoalRow {
 
   update(goal: GoalDocument, pose: GoalPose | undefined, selected: boolean, sensor: string | undefined): void {
     const enabled = goal.enabled !== false;
-    const weight = goal.weight ?? 10;
+    // Two weights are more than one slider can say: it shows the first.
+    const two = typeof goal.weight === "object";
+    const weight = typeof goal.weight === "object" ? goal.weight.position : (goal.weight ?? 10);
     const state = enabled ? (pose?.state ?? "off") : "off";
     this.root.classList.toggle("selected", selected);
     this.root.dataset["state"] = state;
@@ -85,12 +87,14 @@ class GoalRow {
     setText(this.name, name);
     setText(this.state, state);
     setText(this.error, enabled && pose ? errorText(pose.error) : "");
-    const notes = [at === name ? "" : `at ${at}`, sensor ? `follows ${sensor}` : "", enabled ? causesText(pose?.causes) : ""].filter(Boolean);
+    const kind = goal.kind === undefined || goal.kind === "position" ? "" : goal.kind;
+    const notes = [kind, at === name ? "" : `at ${at}`, sensor ? `follows ${sensor}` : "", enabled ? causesText(pose?.causes) : ""].filter(Boolean);
     setText(this.note, notes.join(" · "));
     this.note.hidden = notes.length === 0;
     // What the user has just set stays until the daemon has answered.
     if (this.sliding || this.requests.busy(this.id)) return;
     if (this.enabled.checked !== enabled) this.enabled.checked = enabled;
+    this.weight.disabled = two;
     const slider = String(sliderFromWeight(weight));
     if (this.weight.value !== slider) this.weight.value = slider;
     setText(this.weightValue, weightText(weight));

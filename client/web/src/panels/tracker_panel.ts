@@ -104,8 +104,9 @@ class SensorRow {
     setText(this.place, placeText(model.samples.get(sensor)));
     const bound = bindingsOf(sensor, model);
     const [first, ...others] = bound;
-    const goals = Object.keys(model.scene.document.goals).sort();
-    setOptions(this.goal, [["", "no goal"], ...goals.map((id) => [id, id] as const)], first?.[1].to.goal ?? "");
+    const led = first?.[1].to.goal;
+    const goals = Object.keys(model.scene.document.goals).filter((id) => id === led || model.movable(id)).sort();
+    setOptions(this.goal, [["", "no goal"], ...goals.map((id) => [id, id] as const)], led ?? "");
     setOptions(this.mode, [["absolute", "absolute"], ["relative", "relative"]], first?.[1].mode ?? (this.mode.value || "absolute"));
     const key = others.map(([id, { to }]) => `${id}>${to.goal}`).join();
     if (this.others.dataset["key"] === key) return;

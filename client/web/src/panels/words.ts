@@ -5,7 +5,7 @@ const kLowest = 0.1;
 const kHighest = 1000;
 
 export function atText(at: At | undefined): string {
-  if (at === undefined) return "?";
+  if (at === undefined) return "the whole figure";
   if (typeof at === "string") return plain(at).replace("/", " / ");
   return `${plain(at.segment)} (${at.point.map((value) => value.toFixed(2)).join(", ")})`;
 }
@@ -18,7 +18,9 @@ export function errorText(metres: number): string {
 export function causesText(causes: GoalPose["causes"]): string {
   const holders = (causes ?? []).flatMap(({ goal }) => (goal === undefined ? [] : [goalName(goal)]));
   const beyond = (causes ?? []).flatMap(({ beyond_m }) => (beyond_m === undefined ? [] : [`${errorText(beyond_m)} beyond reach`]));
-  return [...(holders.length > 0 ? [`held by ${holders.join(", ")}`] : []), ...beyond].join(" · ");
+  const limits = (causes ?? []).flatMap(({ limit, side }) => (limit === undefined ? [] : [`${plain(limit)}${side ? ` (${side})` : ""}`]));
+  const limited = limits.length > 0 ? [`limited by ${limits.join(", ")}`] : [];
+  return [...(holders.length > 0 ? [`held by ${holders.join(", ")}`] : []), ...limited, ...beyond].join(" · ");
 }
 
 /** A goal made without a name is called FIGURE.SEGMENT.KIND: its segment says as much. */

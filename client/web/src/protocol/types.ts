@@ -40,10 +40,12 @@ export type At = string | { segment: string; point: Vec3 };
 
 export interface GoalDocument {
   figure?: string;
+  /** position orientation pose aim plane line distance balance posture; the viewer moves the first, and shows the others. */
   kind?: string;
   at?: At;
   position?: Vec3;
-  weight?: number;
+  relative_to?: "world" | { figure?: string; segment: string } | { sensor: string };
+  weight?: number | { position: number; orientation: number };
   enabled?: boolean;
   label?: string;
 }
@@ -73,7 +75,7 @@ export type SceneFrame =
   | { revision: number; document: SceneDocument }
   | { from_revision: number; revision: number; by?: string; patch: PatchOperation[] };
 
-export type GoalState = "off" | "reached" | "balanced" | "unreachable";
+export type GoalState = "off" | "reached" | "balanced" | "unreachable" | "limited";
 
 export interface GoalPose {
   id: string;
@@ -81,7 +83,7 @@ export interface GoalPose {
   target: Vec3;
   error: number;
   state: GoalState;
-  causes?: Array<{ goal?: string; beyond_m?: number }>;
+  causes?: Array<{ goal?: string; beyond_m?: number; limit?: string; side?: string }>;
 }
 
 export interface PoseFrame {

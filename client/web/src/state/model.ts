@@ -167,11 +167,18 @@ export class Model {
 
   /** Where the cube is: under the hand, else where the solver pulls to, else where the document says. */
   goalTarget(id: string): Vec3 | undefined {
-    return (
-      this.localTargets.get(id)?.position ??
-      this.goalPose(id)?.target ??
-      this.scene.document.goals[id]?.position
-    );
+    const goal = this.scene.document.goals[id];
+    const pose = this.goalPose(id);
+    // A goal of the whole figure has no place of its own.
+    if (goal?.kind === "posture" || (goal?.kind === "balance" && pose?.state === "off")) return undefined;
+    const written = goal && this.movable(id) ? goal.position : undefined;
+    return this.localTargets.get(id)?.position ?? pose?.target ?? written;
+  }
+
+  /** A position in the world: what a hand or a sensor can move. Other goals are only shown. */
+  movable(id: string): boolean {
+    const goal = this.scene.document.goals[id];
+    return goal !== undefined && (goal.kind ?? "position") === "position" && (goal.relative_to ?? "world") === "world";
   }
 
   goalFigure(goal: GoalDocument): string | undefined {

@@ -30,7 +30,7 @@ export function touchesFigures(frame: SceneFrame): boolean {
   if ("document" in frame) return true;
   return frame.patch.some(({ path }) => {
     const [, map, , field] = path.split("/");
-    return map === "" || map === undefined || (map === "figures" && field !== "q");
+    return map === "" || map === undefined || (map === "figures" && field !== "q" && field !== "pins");
   });
 }
 

@@ -13,6 +13,10 @@ export function dragGoal(views: Views, model: Model, requests: Requests, name: V
   const goal = pickGoal(views, model, name, x, y);
   const target = goal === null ? undefined : model.goalTarget(goal);
   if (goal === null || !target) return null;
+  if (!model.movable(goal)) {
+    model.select(goal);
+    return null;
+  }
   const start = new Vector3(...target);
   const grabbed = pointOnPlane(views, name, x, y, start);
   if (!grabbed) return null;

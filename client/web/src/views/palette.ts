@@ -11,6 +11,7 @@ export const axisColors = { x: 0xe2665f, y: 0x6fbf73, z: 0x5b9bea } as const;
 export const goalColors: Record<GoalState, number> = {
   reached: 0x4fd18b,
   balanced: 0xf2b441,
+  limited: 0xe5805f,
   unreachable: 0xf0605a,
   off: 0x7d8794,
 };

@@ -1,0 +1,48 @@
+#include "server/scene/spring_goals.h"
+
+namespace posed {
+
+SpringGoal spring_goal(const SceneGoal& goal, const Transform& world_from_base) {
+  SpringGoal spring;
+  spring.at = goal.at;
+  spring.spring = goal.spring;
+  if (joins_figures(goal))
+    spring.world_from_base = world_from_base;
+  else if (goal.goal.relative_to.kind == GoalBase::Kind::segment)
+    spring.base_segment = goal.base_segment;
+  spring.weight = goal.goal.weight.value;
+  spring.orientation_weight = goal.goal.weight.orientation.value_or(goal.goal.weight.value);
+  spring.priority = goal.goal.priority;
+  spring.tolerance = goal.goal.tolerance;
+  follow_sensors(goal, spring);
+  return spring;
+}
+
+void follow_sensors(const SceneGoal& goal, SpringGoal& spring) {
+  spring.enabled = goal.goal.enabled;
+  if (goal.goal.relative_to.kind == GoalBase::Kind::sensor) {
+    spring.enabled = spring.enabled && goal.base_live;
+    if (goal.base_live) spring.world_from_base = *goal.base_live;
+  }
+  if (auto* position = std::get_if<PositionSpring>(&spring.spring)) position->position = goal.target();
+  if (auto* pose = std::get_if<PoseSpring>(&spring.spring)) pose->position = goal.target();
+}
+
+std::vector<SpringGoal> pin_goals(const SceneFigure& figure) {
+  std::vector<SpringGoal> goals;
+  for (const auto& [segment, pin] : figure.entry.pins) {
+    SpringGoal& goal = goals.emplace_back();
+    const int i = *figure.tree->find_segment(segment);
+    goal.at = {i, figure.tree->segment(i).touch_point};
+    goal.priority = kPinPriority;
+    if (pin.hold == Pin::Hold::position)
+      goal.spring = PositionSpring{*pin.position};
+    else if (pin.hold == Pin::Hold::orientation)
+      goal.spring = OrientationSpring{*pin.rotation};
+    else
+      goal.spring = PoseSpring{*pin.position, *pin.rotation};
+  }
+  return goals;
+}
+
+}  // namespace posed
