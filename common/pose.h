@@ -15,7 +15,7 @@ struct Cause {
   enum class Kind { goal, beyond, limit } kind = Kind::goal;
   int goal = -1;                                         // index among the pose's goals: it holds this one
   double beyond_m = 0.0;                                 // how far the target lies beyond the straight chain
-  int figure = 0;         // of those that were solved as one: whose joint
+  int figure = 0;                                        // of those that were solved as one: whose joint
   int joint = -1;                                        // by its segment: its limit holds this goal
   enum class Side { min, max, swing } side = Side::min;  // of that limit
 };

@@ -7,6 +7,7 @@
 #define POSED_SPRINGS_DESCENT_INL_H_
 #endif
 
+#include <algorithm>
 #include <limits>
 
 #include "server/solver/springs/kernel.h"
@@ -32,7 +33,8 @@ class Descent {
 
   void begin(const Tuning& tuning) {
     tuning_ = tuning;
-    trial_ = at_;
+    std::copy(at_.turns.begin(), at_.turns.end(), trial_.turns.begin());
+    std::copy(at_.more.begin(), at_.more.end(), trial_.more.begin());
     cost_ = marked_ = T(std::numeric_limits<double>::infinity());
     factor_ = T(tuning.damping);
     second_order_ = T(tuning.second_order ? 1.0 : 0.0);
@@ -127,6 +129,10 @@ class Descent {
   }
 
   static HWY_INLINE void keep(const Mask<T>& mask, const std::vector<T>& from, std::vector<T>& to) {
+    if constexpr (lanes_of<T>() == 1) {
+      if (mask) std::copy(from.begin(), from.end(), to.begin());
+      return;
+    }
     for (std::size_t i = 0; i < to.size(); ++i) to[i] = select(mask, from[i], to[i]);
   }
 

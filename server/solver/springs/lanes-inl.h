@@ -13,6 +13,11 @@
 #include "hwy/contrib/math/math-inl.h"
 #include "hwy/highway.h"
 
+// Loops over the rows of small matrices, which are registers once they are written out.
+#ifndef POSED_UNROLL
+#define POSED_UNROLL _Pragma("GCC unroll 8")
+#endif
+
 HWY_BEFORE_NAMESPACE();
 namespace posed::springs::HWY_NAMESPACE {
 
@@ -27,7 +32,8 @@ struct LanesMask {
   hn::Mask<Tag> part[kParts];
 };
 
-struct Lanes {
+// Said aloud: where the instruction set is not enabled, in std::allocator, GCC takes a vector's alignment for 16.
+struct alignas(kWidth * sizeof(double)) Lanes {
   hn::Vec<Tag> part[kParts];
 
   Lanes() = default;

@@ -84,6 +84,16 @@ struct Load {
   HWY_INLINE V3<T> bend(const V3<T>& axis) const { return moment * axis - axis * trace(); }
   HWY_INLINE T trace() const { return moment.x.x + moment.y.y + moment.z.z; }
 
+  // The matrix times a turn about `axis`, or a shift along it, with `newton` times the terms of second order.
+  HWY_INLINE void times_turn(const V3<T>& axis, const T& newton, V3<T>& turn, V3<T>& shift) const {
+    turn = turn_turn * axis + bend(axis) * newton;
+    shift = turn_shift.turned_back(axis);
+  }
+  HWY_INLINE void times_shift(const V3<T>& axis, const T& newton, V3<T>& turn, V3<T>& shift) const {
+    turn = turn_shift * axis + cross(axis, pull) * newton;
+    shift = shift_shift * axis;
+  }
+
   // Takes out a degree of freedom that moves everything here by `axis` (u and w: the matrix times it).
   HWY_INLINE void take_out(const V3<T>& u, const V3<T>& w, const T& inverse, const T& share) {
     const V3<T> us = u * inverse, ws = w * inverse;
@@ -117,6 +127,115 @@ struct Load {
   }
 };
 
+// The same for one alone, in whole columns: three registers a block. turn_shift is kept the other way round.
+template <>
+struct Load<double> {
+  using V = V3<double>;
+  M3<double> turn_turn, shift_turn, shift_shift;
+  Wrench<double> slope;
+  V pull;
+  M3<double> moment;
+
+  HWY_INLINE void clear() {
+    const V none{0.0, 0.0, 0.0};
+    turn_turn = shift_turn = shift_shift = moment = {none, none, none};
+    slope.clear();
+    pull = none;
+  }
+
+  HWY_INLINE void add_point(const V& arm, const V& force, double weight) {
+    const V wa = arm * weight, x{1.0, 0.0, 0.0}, y{0.0, 1.0, 0.0}, z{0.0, 0.0, 1.0};
+    const double square = dot(wa, arm);
+    turn_turn.x += x * square - arm * wa.x;
+    turn_turn.y += y * square - arm * wa.y;
+    turn_turn.z += z * square - arm * wa.z;
+    shift_turn.x += cross(x, wa);
+    shift_turn.y += cross(y, wa);
+    shift_turn.z += cross(z, wa);
+    shift_shift.x += x * weight;
+    shift_shift.y += y * weight;
+    shift_shift.z += z * weight;
+    slope += {cross(arm, force), force};
+    add_second_order(arm, force);
+  }
+
+  HWY_INLINE void add_row(const Wrench<double>& row, double force, double weight) {
+    add_outer(turn_turn, row.turn * weight, row.turn);
+    add_outer(shift_turn, row.shift * weight, row.turn);
+    add_outer(shift_shift, row.shift * weight, row.shift);
+    slope += row * force;
+  }
+
+  HWY_INLINE void add_second_order(const V& arm, const V& force) {
+    pull += force;
+    add_outer(moment, arm, force);
+  }
+
+  HWY_INLINE double trace() const { return moment.x.x + moment.y.y + moment.z.z; }
+
+  HWY_INLINE void times_turn(const V& axis, double newton, V& turn, V& shift) const {
+    turn = turn_turn * axis;
+    if (newton != 0.0) turn += (moment * axis - axis * trace()) * newton;
+    shift = shift_turn * axis;
+  }
+  HWY_INLINE void times_shift(const V& axis, double newton, V& turn, V& shift) const {
+    turn = shift_turn.turned_back(axis) + cross(axis, pull) * newton;
+    shift = shift_shift * axis;
+  }
+
+  HWY_INLINE void take_out(const V& u, const V& w, double inverse, double share) {
+    const V us = u * -inverse, ws = w * -inverse;
+    add_outer(turn_turn, us, u);
+    add_outer(shift_turn, ws, u);
+    add_outer(shift_shift, ws, w);
+    slope.turn -= u * share;
+    slope.shift -= w * share;
+  }
+
+  HWY_INLINE void hand_down(const V& arm, Load& to) const {
+    const M3<double>&c = shift_shift, &d = shift_turn;
+    // D - C [arm]
+    const M3<double> handed{d.x + c.z * arm.y - c.y * arm.z, d.y + c.x * arm.z - c.z * arm.x,
+                            d.z + c.y * arm.x - c.x * arm.y};
+    // A + [arm] D' + ([arm] D)'
+    const V ex = cross(arm, d.x), ey = cross(arm, d.y), ez = cross(arm, d.z);
+    to.turn_turn.x += turn_turn.x + cross(arm, handed.x) + V{ex.x, ey.x, ez.x};
+    to.turn_turn.y += turn_turn.y + cross(arm, handed.y) + V{ex.y, ey.y, ez.y};
+    to.turn_turn.z += turn_turn.z + cross(arm, handed.z) + V{ex.z, ey.z, ez.z};
+    to.shift_turn += handed;
+    to.shift_shift += c;
+    to.slope += {slope.turn + cross(arm, slope.shift), slope.shift};
+    to.pull += pull;
+    to.moment.x += moment.x + arm * pull.x;
+    to.moment.y += moment.y + arm * pull.y;
+    to.moment.z += moment.z + arm * pull.z;
+  }
+
+ private:
+  HWY_INLINE static void add_outer(M3<double>& to, const V& a, const V& b) {
+    to.x += a * b.x;
+    to.y += a * b.y;
+    to.z += a * b.z;
+  }
+};
+
+// Entry k of row i of a load's block that couples turn i with shift k.
+template <class T>
+HWY_INLINE M3<T> turn_shift_of(const Load<T>& load) {
+  return load.turn_shift;
+}
+HWY_INLINE M3<double> turn_shift_of(const Load<double>& load) {
+  const M3<double>& d = load.shift_turn;
+  return {{d.x.x, d.y.x, d.z.x}, {d.x.y, d.y.y, d.z.y}, {d.x.z, d.y.z, d.z.z}};
+}
+template <class T>
+HWY_INLINE S3<T> upper(const S3<T>& s) {
+  return s;
+}
+HWY_INLINE S3<double> upper(const M3<double>& m) {
+  return {m.x.x, m.y.x, m.z.x, m.y.y, m.z.y, m.z.z};
+}
+
 // The six degrees of freedom of a floating root, solved at once by L D L', the shift first: its pivots are sums of
 // weights.
 template <class T>
@@ -128,26 +247,30 @@ struct RootFactor {
     const M3<T>& m = load.moment;
     const T trace = load.trace(), half = newton * T(0.5);
     T a[6][6];
-    a[0][0] = load.turn_turn.xx + newton * (m.x.x - trace) + damping[3];
-    a[1][0] = load.turn_turn.xy + half * (m.x.y + m.y.x);
-    a[1][1] = load.turn_turn.yy + newton * (m.y.y - trace) + damping[4];
-    a[2][0] = load.turn_turn.xz + half * (m.x.z + m.z.x);
-    a[2][1] = load.turn_turn.yz + half * (m.y.z + m.z.y);
-    a[2][2] = load.turn_turn.zz + newton * (m.z.z - trace) + damping[5];
-    const M3<T>& b = load.turn_shift;
+    const S3<T> r = upper(load.turn_turn), c = upper(load.shift_shift);
+    const M3<T> b = turn_shift_of(load);
+    a[0][0] = r.xx + newton * (m.x.x - trace) + damping[3];
+    a[1][0] = r.xy + half * (m.x.y + m.y.x);
+    a[1][1] = r.yy + newton * (m.y.y - trace) + damping[4];
+    a[2][0] = r.xz + half * (m.x.z + m.z.x);
+    a[2][1] = r.yz + half * (m.y.z + m.z.y);
+    a[2][2] = r.zz + newton * (m.z.z - trace) + damping[5];
     a[3][0] = b.x.x, a[3][1] = b.x.y, a[3][2] = b.x.z;
     a[4][0] = b.y.x, a[4][1] = b.y.y, a[4][2] = b.y.z;
     a[5][0] = b.z.x, a[5][1] = b.z.y, a[5][2] = b.z.z;
-    const S3<T>& c = load.shift_shift;
     a[3][3] = c.xx + damping[0];
     a[4][3] = c.xy, a[4][4] = c.yy + damping[1];
     a[5][3] = c.xz, a[5][4] = c.yz, a[5][5] = c.zz + damping[2];
     T least_pivot = a[5][5];
+    POSED_UNROLL
     for (int k = 5; k >= 0; --k) {
       least_pivot = least(least_pivot, a[k][k]);
       inverse[k] = T(1.0) / a[k][k];
+      POSED_UNROLL
       for (int i = 0; i < k; ++i) l[k][i] = a[k][i] * inverse[k];
+      POSED_UNROLL
       for (int i = 0; i < k; ++i) {
+        POSED_UNROLL
         for (int j = 0; j <= i; ++j) a[i][j] = a[i][j] - a[k][i] * l[k][j];
       }
     }
@@ -157,12 +280,16 @@ struct RootFactor {
   // The motion that undoes `slope`; adds to `gain` what the quadratic loses by it.
   HWY_INLINE Wrench<T> solve(const Wrench<T>& slope, T& gain) const {
     T y[6] = {-slope.turn.x, -slope.turn.y, -slope.turn.z, -slope.shift.x, -slope.shift.y, -slope.shift.z};
+    POSED_UNROLL
     for (int k = 5; k >= 0; --k) {
       gain = gain + y[k] * y[k] * inverse[k];
+      POSED_UNROLL
       for (int i = 0; i < k; ++i) y[i] = y[i] - l[k][i] * y[k];
       y[k] = y[k] * inverse[k];
     }
+    POSED_UNROLL
     for (int k = 1; k < 6; ++k) {
+      POSED_UNROLL
       for (int i = 0; i < k; ++i) y[k] = y[k] - l[k][i] * y[i];
     }
     return {{y[0], y[1], y[2]}, {y[3], y[4], y[5]}};

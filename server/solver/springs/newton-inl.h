@@ -10,6 +10,7 @@
 #define POSED_SPRINGS_NEWTON_INL_H_
 #endif
 
+#include <type_traits>
 #include <vector>
 
 #include "server/solver/springs/kinematics-inl.h"
@@ -70,9 +71,18 @@ class Newton {
         motions_[i] = root_motion(plan, link, i, load.slope, gain);
         continue;
       }
-      for (int j = link.dof + link.dofs; j-- > link.dof;) {
-        take_out(plan, link, i, static_cast<std::size_t>(j), at, figure, damping, by_effort, newton, load, least_pivot,
-                 gain);
+      const auto first = static_cast<std::size_t>(link.dof);
+      const auto out = [&]<int kDofs>(std::integral_constant<int, kDofs>, std::size_t from) HWY_ATTR {
+        take_out<kDofs>(plan, link, i, from, at, figure, damping, by_effort, newton, load, least_pivot, gain);
+      };
+      // One alone waits for each number, eight fill the processor (and its registers) as they are.
+      const int together = lanes_of<T>() == 1 ? link.dofs : 1;
+      if (together == 3) {
+        out(std::integral_constant<int, 3>(), first);
+      } else if (together == 2) {
+        out(std::integral_constant<int, 2>(), first);
+      } else {
+        for (auto j = static_cast<std::size_t>(link.dofs); j-- > 0;) out(std::integral_constant<int, 1>(), first + j);
       }
       if (link.parent >= 0)
         load.hand_down(figure.placed(static_cast<int>(i)).centre - figure.placed(link.parent).centre,
@@ -146,43 +156,69 @@ class Newton {
     return none;
   }
 
-  HWY_INLINE void take_out(const Plan& plan, const Link& link, std::size_t i, std::size_t j, const Steps<T>& at,
+  // The degrees of freedom of one joint, the last first: all of them look at the same load, so that they wait for each
+  // other in a few numbers only.
+  template <int kDofs>
+  HWY_INLINE void take_out(const Plan& plan, const Link& link, std::size_t i, std::size_t first, const Steps<T>& at,
                            const Kinematics<T>& figure, const T& damping, bool by_effort, const T& newton,
                            Load<T>& load, T& least_pivot, T& gain) {
-    const V3<T>& axis = figure.axis(j);
-    const T zero(0.0), one(1.0), near(kOnEdge);
-    V3<T> u, w;
-    T pivot, slope;
-    if (plan.dofs[j].kind == DofKind::along_axis) {
-      u = load.turn_shift * axis + cross(axis, load.pull) * newton;
-      w = load.shift_shift * axis;
-      pivot = dot(w, axis);
-      slope = dot(load.slope.shift, axis);
-    } else {
-      u = load.turn_turn * axis + load.bend(axis) * newton;
-      w = load.turn_shift.turned_back(axis);
-      pivot = dot(u, axis);
-      slope = dot(load.slope.turn, axis);
+    const T zero(0.0), one(1.0);
+    const bool slides = kDofs == 1 && plan.dofs[first].kind == DofKind::along_axis;
+    V3<T> u[kDofs], w[kDofs];
+    T s[kDofs][kDofs], slope[kDofs];
+    POSED_UNROLL
+    for (std::size_t k = 0; k < kDofs; ++k) {
+      const V3<T>& axis = figure.axis(first + k);
+      if (slides) {
+        load.times_shift(axis, newton, u[k], w[k]);
+        s[k][k] = dot(w[k], axis);
+        slope[k] = dot(load.slope.shift, axis);
+      } else {
+        load.times_turn(axis, newton, u[k], w[k]);
+        POSED_UNROLL
+        for (std::size_t m = 0; m <= k; ++m) s[m][k] = dot(u[k], figure.axis(first + m));
+        slope[k] = dot(load.slope.turn, axis);
+      }
+      s[k][k] = s[k][k] + damping * effort(plan, first + k, by_effort);
+      if (plan.sprung) {
+        s[k][k] = s[k][k] + T(plan.springs[first + k].weight);
+        slope[k] = slope[k] + spring_slopes_[first + k];
+      }
     }
-    pivot = pivot + damping * effort(plan, j, by_effort);
-    if (plan.sprung) {
-      pivot = pivot + T(plan.springs[j].weight);
-      slope = slope + spring_slopes_[j];
+    POSED_UNROLL
+    for (std::size_t r = 0; r < kDofs; ++r) {
+      const std::size_t k = kDofs - 1 - r;
+      least_pivot = least(least_pivot, s[k][k]);
+      const T inverse = select(is_pinned(plan, link, i, first + k, at, figure, slope[k]), zero, one / s[k][k]);
+      const T share = slope[k] * inverse;
+      gain = gain + slope[k] * share;
+      POSED_UNROLL
+      for (std::size_t m = 0; m < k; ++m) {
+        const T part = s[m][k] * inverse;
+        slope[m] = slope[m] - s[m][k] * share;
+        POSED_UNROLL
+        for (std::size_t n = 0; n <= m; ++n) s[n][m] = s[n][m] - part * s[n][k];
+        u[m] -= u[k] * part;
+        w[m] -= w[k] * part;
+      }
+      load.take_out(u[k], w[k], inverse, share);
+      columns_[first + k] = {u[k], w[k], inverse, slope[k]};
     }
-    least_pivot = least(least_pivot, pivot);
-    // At a bound, and pushed against it.
+  }
+
+  // At a bound, and pushed against it.
+  HWY_INLINE static Mask<T> is_pinned(const Plan& plan, const Link& link, std::size_t i, std::size_t j,
+                                      const Steps<T>& at, const Kinematics<T>& figure, const T& slope) {
+    const T zero(0.0), near(kOnEdge);
     Mask<T> pinned = ((at.turns[j] >= T(plan.most[j]) - near) & (slope < zero)) |
                      ((at.turns[j] <= T(plan.least[j]) + near) & (slope > zero));
     if (link.kind == LinkKind::limb) {
       const Swinging<T>& swinging = figure.swinging(i);
-      if (j == static_cast<std::size_t>(link.dof)) pinned = pinned | ((swinging.on_edge > zero) & (slope < zero));
-      if (j == static_cast<std::size_t>(link.dof) + 1) pinned = pinned | (swinging.corner * slope < zero);
+      const auto first = static_cast<std::size_t>(link.dof);
+      if (j == first) pinned = pinned | ((swinging.on_edge > zero) & (slope < zero));
+      if (j == first + 1) pinned = pinned | (swinging.corner * slope < zero);
     }
-    const T inverse = select(pinned, zero, one / pivot);
-    const T share = slope * inverse;
-    gain = gain + slope * share;
-    load.take_out(u, w, inverse, share);
-    columns_[j] = {u, w, inverse, slope};
+    return pinned;
   }
 
   HWY_INLINE void carry(const Link& link, std::size_t i, const Kinematics<T>& figure) {

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
+#include "server/solver/ball_angles.h"
 #include "server/solver/springs/swing.h"
 
 namespace posed::springs {
@@ -108,6 +110,15 @@ std::vector<double> moved_shares(const BodyTree& tree) {
   return moved;
 }
 
+// Limbs one beside the other, so that a processor finds work in one while it waits for another.
+std::vector<int> by_depth(const BodyTree& tree) {
+  std::vector<int> depth(at(tree.size())), order(at(tree.size()));
+  for (int i = 1; i < tree.size(); ++i) depth[at(i)] = depth[at(tree.parent(i))] + 1;
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return depth[at(a)] < depth[at(b)]; });
+  return order;
+}
+
 }  // namespace
 
 Vec3 mass_point(const Segment& segment) {
@@ -123,7 +134,7 @@ void add_figure(const BodyTree& tree, int figure, std::span<const char> active, 
   const std::vector<double> moved = moved_shares(tree);
   plan.masses.resize(std::max(plan.masses.size(), at(figure + 1)), 0.0);
   link_of_segment.assign(at(tree.size()), -1);
-  for (int i = 0; i < tree.size(); ++i) {
+  for (const int i : by_depth(tree)) {
     if (!needed[at(i)]) continue;
     const Segment& segment = tree.segment(i);
     const Joint& joint = segment.joint;
@@ -176,11 +187,11 @@ void read_q(const BodyTree& tree, int figure, const Plan& plan, std::span<const 
       turns[0] = angle_about(joint.axes[0], joint.axes[1], rotation() * joint.axes[1]);
       turns[1] = angle_about(joint.axes[1], glm::conjugate(rotation()) * joint.axes[0], joint.axes[0]);
     } else if (joint.type == JointType::ball) {
-      // Rx Ry Rz
-      const Vec3 z = rotation() * kZ, x = glm::conjugate(rotation()) * kX;
-      turns[0] = std::atan2(-z.y, z.z);
-      turns[1] = std::asin(std::clamp(z.x, -1.0, 1.0));
-      turns[2] = std::atan2(-x.y, x.x);
+      std::array<AngleRange, 3> ranges;
+      for (std::size_t k = 0; k < 3; ++k)
+        ranges[k] = {plan.dofs[at(link.dof) + k].min, plan.dofs[at(link.dof) + k].max};
+      const auto angles = ball_angles(rotation(), ranges);
+      std::copy(angles.begin(), angles.end(), turns);
     } else if (link.dofs == 1) {
       turns[0] = share[0];
     }

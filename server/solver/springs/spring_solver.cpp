@@ -21,10 +21,15 @@ namespace {
 constexpr double kFar = 0.02;         // m, weighted RMS: a start from farther away takes the long way (go_far)
 constexpr double kReachedRms = 1e-3;  // m
 constexpr double kClearlyBetter = 0.7;
-constexpr std::size_t kFewRows = 12;  // so few errors seldom have more than one valley: one start is tried first
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
+}
+
+// Of one size: keeps the memory.
+void copy(const State& from, State& to) {
+  std::copy(from.turns.begin(), from.turns.end(), to.turns.begin());
+  std::copy(from.more.begin(), from.more.end(), to.more.begin());
 }
 
 }  // namespace
@@ -107,13 +112,13 @@ void SpringSolver::prepare(std::span<const SpringGoal> goals) {
   std::sort(levels_.begin(), levels_.end());
   levels_.erase(std::unique(levels_.begin(), levels_.end()), levels_.end());
   plan_.terms = terms_;
-  for (State* state : {&state_, &start_, &kept_, &posture_}) springs::resize(plan_, *state);
+  for (State* state : {&state_, &start_, &kept_, &origin_, &posture_}) springs::resize(plan_, *state);
   own_springs_ = plan_.springs;
   own_more_ = plan_.spring_more;
   posture_q_.clear();
   for (const auto& figure : figures_) posture_q_.push_back(figure->rest());
   starts_ = springs::make_starts(plan_);
-  lanes_ = starts_;
+  lanes_.assign(starts_.begin(), starts_.begin() + springs::kStarts);
   held_.resize(terms_.size());
   kernel_->prepare(plan_);
   explainer_->prepare(plan_, goals.size());
@@ -135,7 +140,7 @@ void SpringSolver::solve(std::span<const SpringGoal> goals, const SpringOptions&
   pin_roots(goals);
   set_terms(goals);
   set_springs(goals);
-  start_ = state_;
+  copy(state_, start_);
 
   if (!plan_.links.empty()) {
     if (levels_.size() > 1)
@@ -255,43 +260,48 @@ void SpringSolver::go_far(const SpringOptions& options, const Stop& should_stop,
   if (report.status != SolveStatus::deadline) descend(t, should_stop, report);
 }
 
-// From many starts at once.
+// From the middle of all ranges; where that leads nowhere, from many starts side by side.
 void SpringSolver::search(const SpringOptions& options, const Stop& should_stop, SolveReport& report) {
   const double sum = weights(), reached = sum * kReachedRms * kReachedRms;
+  copy(state_, origin_);
+  springs::place_middle(plan_, starts_[0], state_);
   Tuning t = tuning(options);
   t.by_effort = false;
   t.align = true;
-  std::size_t rows = 0;
-  for (const Term& term : plan_.terms) rows += term.kind == springs::TermKind::plane ? 1 : 3;
-  if (rows <= kFewRows) {
-    Tuning one = t;
-    one.patience = 5;
-    kept_ = state_;
-    if (descend(one, should_stop, report).stopped || cost_ <= reached) return;
-    std::swap(kept_, state_);
-  }
-  springs::place_starts(plan_, state_, starts_, lanes_);
-  Tuning many = t;
-  many.enough = sum * 1e-8;
-  many.patience = 5;
-  const springs::Answer found = kernel_->search(plan_, many, should_stop, lanes_);
-  report.iterations += found.iterations;
-  state_ = lanes_[0];
+  t.damping = 0.01;
+  t.patience = 5;
+  const springs::Answer first = descend(t, should_stop, report);
+  if (first.stopped) return;
   Tuning polish = tuning(options);
   polish.by_effort = false;
   polish.damping = 1e-3;
+  if (cost_ <= reached) {
+    if (cost_ > t.enough) descend(polish, should_stop, report);
+    return;
+  }
+  const double cost = cost_;
+  springs::place_starts(plan_, origin_, starts_, lanes_);
+  Tuning many = t;
+  many.damping = 0.1;
+  many.iterations = std::min(options.iterations, 60);
+  many.patience = 8;
+  many.patience_gain = 0.2;
+  many.enough = std::max(t.enough, sum * 1e-8);
+  const springs::Answer found = kernel_->search(plan_, many, should_stop, lanes_);
+  report.iterations += found.iterations;
+  if (found.cost < cost) copy(lanes_[0], state_);
   descend(polish, should_stop, report);
   if (found.stopped) report.status = SolveStatus::deadline;
 }
 
 void SpringSolver::explore(const SpringOptions& options, const Stop& should_stop, SolveReport& report) {
-  kept_ = state_;
+  copy(state_, kept_);
   const double cost = cost_;
   const SolveStatus status = report.status;
   search(options, should_stop, report);
   report.branch_changed = cost_ < kClearlyBetter * cost;
   if (report.branch_changed) return;
-  state_ = kept_;
+  copy(kept_, state_);
   cost_ = cost;
   report.status = status;
 }

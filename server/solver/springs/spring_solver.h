@@ -113,7 +113,7 @@ class SpringSolver {
   std::vector<springs::Term> terms_;               // of all goals; plan_.terms has them as the level sees them
   std::vector<Held> held_;                         // one a term
   std::vector<springs::State> starts_, lanes_;
-  springs::State state_, start_, kept_, posture_;
+  springs::State state_, start_, kept_, origin_, posture_;
   std::vector<std::vector<double>> posture_q_;
   std::vector<springs::Spring1> own_springs_;  // of posture goals, while the start pose holds
   std::vector<double> own_more_;

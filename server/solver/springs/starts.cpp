@@ -9,7 +9,7 @@
 namespace posed::springs {
 namespace {
 
-constexpr double kInner = 0.4;      // share of a range that starts are spread over
+constexpr double kInner = 0.25;     // share of a range that starts are spread over
 constexpr double kFreeRange = 1.0;  // rad or m to either side, where there is no limit
 constexpr double kStraight = 0.02;  // rad
 
@@ -21,7 +21,7 @@ std::size_t at(int i) {
 // sequences", 2018), one stream a degree of freedom: even in every single range, and far from itself in pairs.
 class Spread {
  public:
-  // In [-1, 1].
+  // In [-1, 1]; sample 0 is the middle.
   double operator()(std::size_t sample, std::size_t dimension) const {
     const double step = std::fmod(0.7548776662466927 * static_cast<double>(dimension + 1) +
                                       0.5698402909980532 * static_cast<double>((dimension * dimension) % 1009),
@@ -45,7 +45,7 @@ void resize(const Plan& plan, State& state) {
 
 std::vector<State> make_starts(const Plan& plan) {
   const Spread spread;
-  std::vector<State> starts(kStarts);
+  std::vector<State> starts(kStarts + 1);
   for (std::size_t n = 0; n < starts.size(); ++n) {
     State& s = starts[n];
     resize(plan, s);
@@ -77,23 +77,24 @@ std::vector<State> make_starts(const Plan& plan) {
   return starts;
 }
 
-void place_starts(const Plan& plan, const State& first, std::span<const State> made, std::span<State> lanes) {
-  lanes[0].turns = first.turns;
-  lanes[0].more = first.more;
-  for (std::size_t n = 1; n < lanes.size(); ++n) {
-    std::copy(made[n].turns.begin(), made[n].turns.end(), lanes[n].turns.begin());
-    std::copy(made[n].more.begin(), made[n].more.end(), lanes[n].more.begin());
+void place_middle(const Plan& plan, const State& made, State& state) {
+  std::copy(made.turns.begin(), made.turns.end(), state.turns.begin());
+  for (const Link& link : plan.links) {
+    if (link.kind == LinkKind::ball || link.kind == LinkKind::limb)
+      std::copy_n(made.more.begin() + link.more, 4, state.more.begin() + link.more);
+  }
+}
+
+void place_starts(const Plan& plan, const State& from, std::span<const State> made, std::span<State> lanes) {
+  constexpr double kHeadings[kStarts] = {0.0, 0.5, -0.5, 1.0, -1.0, 1.5, -1.5, M_PI};  // rad
+  for (std::size_t n = 0; n < lanes.size(); ++n) {
+    std::copy(from.more.begin(), from.more.end(), lanes[n].more.begin());
+    place_middle(plan, made[n + 1], lanes[n]);
     for (const Link& link : plan.links) {
-      if (link.kind != LinkKind::floating) continue;
-      const double* from = first.more.data() + link.more;
-      double* to = lanes[n].more.data() + link.more;
-      std::copy_n(from, 7, to);
-      if (link.pinned) continue;
-      // 0, 60, -60, 120, -120 ... degrees
-      const double heading =
-          M_PI / 3.0 * static_cast<double>((n + 1) / 2 % 4) * (n % 2 == 0 ? 1.0 : -1.0) * (n > 1 ? 1.0 : 0.0);
-      const auto q = xyzw(quat_about(kZ, heading) * quat_from_xyzw(std::span<const double>(from + 3, 4)));
-      std::copy(q.begin(), q.end(), to + 3);
+      if (link.kind != LinkKind::floating || link.pinned) continue;
+      double* turn = lanes[n].more.data() + link.more + 3;
+      const auto q = xyzw(quat_about(kZ, kHeadings[n]) * quat_from_xyzw(std::span<const double>(turn, 4)));
+      std::copy(q.begin(), q.end(), turn);
     }
   }
 }

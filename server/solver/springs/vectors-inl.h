@@ -9,6 +9,10 @@
 #include "common/math.h"
 #include "server/solver/springs/lanes-inl.h"
 
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wpsabi"  // all of it is inlined: nothing is passed between calls
+#endif
+
 HWY_BEFORE_NAMESPACE();
 namespace posed::springs::HWY_NAMESPACE {
 
@@ -27,6 +31,42 @@ struct V3 {
   HWY_INLINE V3& operator+=(const V3& b) { return *this = *this + b; }
   HWY_INLINE V3& operator-=(const V3& b) { return *this = *this - b; }
 };
+
+// One alone keeps a vector in one register, where the instruction set has any that wide.
+template <>
+struct alignas(32) V3<double> {  // said aloud: see Lanes
+  using Wide = double __attribute__((vector_size(32)));
+  union {
+    Wide all;
+    __extension__ struct { double x, y, z, unused; };
+  };
+
+  V3() = default;
+  HWY_INLINE V3(double a, double b, double c) : all{a, b, c, 0.0} {}
+  HWY_INLINE explicit V3(const Vec3& v) : all{v.x, v.y, v.z, 0.0} {}
+  HWY_INLINE explicit V3(const Wide& wide) : all(wide) {}
+
+  HWY_INLINE V3 operator+(const V3& b) const { return V3(all + b.all); }
+  HWY_INLINE V3 operator-(const V3& b) const { return V3(all - b.all); }
+  HWY_INLINE V3 operator-() const { return V3(-all); }
+  HWY_INLINE V3 operator*(double s) const { return V3(all * s); }
+  HWY_INLINE V3& operator+=(const V3& b) {
+    all += b.all;
+    return *this;
+  }
+  HWY_INLINE V3& operator-=(const V3& b) {
+    all -= b.all;
+    return *this;
+  }
+  HWY_INLINE V3 yzx() const { return V3(__builtin_shufflevector(all, all, 1, 2, 0, 3)); }
+};
+
+HWY_INLINE V3<double> cross(const V3<double>& a, const V3<double>& b) {
+  return V3<double>(a.all * b.yzx().all - a.yzx().all * b.all).yzx();
+}
+HWY_INLINE V3<double> select(bool mask, const V3<double>& yes, const V3<double>& no) {
+  return mask ? yes : no;
+}
 
 template <class T>
 HWY_INLINE T dot(const V3<T>& a, const V3<T>& b) {

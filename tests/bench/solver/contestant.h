@@ -32,6 +32,7 @@ class Contestant {
   virtual void answer(std::span<double> x) const = 0;
 };
 
+std::unique_ptr<Contestant> springs_contestant(const HingeFigure& figure);
 std::unique_ptr<Contestant> mujoco_peer(const HingeFigure& figure);
 std::unique_ptr<Contestant> ceres_peer(const HingeFigure& figure);
 std::unique_ptr<Contestant> kdl_peer(const HingeFigure& figure);

@@ -1,5 +1,7 @@
 #include "tests/bench/solver/hinge_figure.h"
 
+#include "server/solver/ball_angles.h"
+
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
@@ -40,19 +42,6 @@ struct Turned {
 std::array<double, 2> universal_angles(const Quat& r, const Vec3& first, const Vec3& second) {
   const Turned m{first, second, glm::cross(first, second), r};
   return {std::atan2(m(2, 1), m(1, 1)), std::atan2(m(0, 2), m(0, 0))};
-}
-
-std::array<double, 3> ball_angles(const Quat& r, std::span<const Hinge> hinges) {
-  const Turned m{kX, kY, kZ, r};
-  const double y = std::atan2(m(0, 2), std::hypot(m(0, 0), m(0, 1)));
-  const double x = std::atan2(-m(1, 2), m(2, 2)), z = std::atan2(-m(0, 1), m(0, 0));
-  const std::array<double, 3> one = {x, y, z}, other = {wrapped(x + M_PI), wrapped(M_PI - y), wrapped(z + M_PI)};
-  const auto cost = [&](const std::array<double, 3>& angles) {
-    double sum = 0.0;
-    for (std::size_t k = 0; k < 3; ++k) sum += beyond(hinges[k], angles[k]);
-    return sum;
-  };
-  return cost(one) <= cost(other) ? one : other;
 }
 
 }  // namespace
@@ -130,7 +119,9 @@ std::vector<double> HingeFigure::from_tree_q(std::span<const double> q) const {
     const auto first = static_cast<std::size_t>(part.first_hinge);
     double* const angles = x.data() + kRootSize + first;
     if (part.hinges == 3) {
-      const auto found = ball_angles(turn, std::span(hinges_).subspan(first, 3));
+      std::array<AngleRange, 3> ranges;
+      for (std::size_t k = 0; k < 3; ++k) ranges[k] = {hinges_[first + k].min, hinges_[first + k].max};
+      const auto found = ball_angles(turn, ranges);
       std::copy(found.begin(), found.end(), angles);
     } else {
       const auto found = universal_angles(turn, hinges_[first].axis, hinges_[first + 1].axis);

@@ -40,8 +40,9 @@ bool has_wide_lanes() {
 #endif
 }
 
-std::vector<std::unique_ptr<Contestant>> contestants([[maybe_unused]] const HingeFigure& figure) {
-  std::vector<std::unique_ptr<Contestant>> all;  // ours comes first, under the name kOurs
+std::vector<std::unique_ptr<Contestant>> contestants(const HingeFigure& figure) {
+  std::vector<std::unique_ptr<Contestant>> all;
+  all.push_back(springs_contestant(figure));
 #ifdef BENCH_HAS_MUJOCO
   all.push_back(mujoco_peer(figure));
 #endif

@@ -1,0 +1,19 @@
+// A ball joint's turn as the three angles that its box of limits is about (common/figure.h: Joint::limits).
+#pragma once
+
+#include <array>
+
+#include "common/math.h"
+
+namespace posed {
+
+struct AngleRange {
+  double min = -M_PI, max = M_PI;
+};
+
+// x, y, z of R = Rx(x) Ry(y) Rz(z), rad. Of the two triples that there are, the one that is nearer to the ranges; where
+// y is a quarter turn, so that only the sum or difference of x and z is known, a split that lies in the ranges if any
+// does.
+std::array<double, 3> ball_angles(const Quat& turn, const std::array<AngleRange, 3>& ranges);
+
+}  // namespace posed
