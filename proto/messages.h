@@ -262,10 +262,12 @@ struct GoalFrame {
   Vec3 force{0.0, 0.0, 0.0};
   GoalState state = GoalState::off;
   struct Because {
-    std::string goal;  // empty: the next
+    std::string goal;  // empty: one of the others
     double beyond_m = 0.0;
-    std::string limit = {};  // a joint's name; its limit on this side. Empty: one of the others
+    std::string limit = {};  // a joint's name; its limit on this side
     Cause::Side side = Cause::Side::min;
+    std::string pin = {};     // a segment
+    std::string figure = {};  // whose limit or pin, where it is another than the goal's
   };
   std::vector<Because> causes;
 };

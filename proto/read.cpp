@@ -228,6 +228,8 @@ void read(ReadContext& c, const Json& j, GoalFrame::Because& out) {
   r.optional("beyond_m", out.beyond_m);
   r.optional("limit", out.limit);
   r.optional("side", out.side);
+  r.optional("pin", out.pin);
+  r.optional("figure", out.figure);
   r.finish();
 }
 

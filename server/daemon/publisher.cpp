@@ -107,7 +107,7 @@ net::SharedLine Publisher::encode_pose(const Channel& channel, std::uint64_t seq
   proto::PoseData data;
   data.t_ns = t_ns;
   data.revision = solving_.revision();
-  for (const auto& [id, figure] : solving_.figures()) {
+  for (const auto& [id, solved] : solving_.figures()) {
     if (channel.figures.empty() || std::binary_search(channel.figures.begin(), channel.figures.end(), id)) {
       data.figures.push_back(solving_.message(id));
     }
