@@ -74,6 +74,10 @@ Json write(const JointValue& v) {
   return j;
 }
 
+Json write(const Start& s) {
+  return s.kind == Start::Kind::q ? Json{{"q", write(s.q)}} : Json(word(s.kind));
+}
+
 Json write(const GoalFrame::Because& b) {
   if (!b.goal.empty()) return Json{{"goal", b.goal}};
   if (b.pin.empty() && b.limit.empty()) return Json{{"beyond_m", b.beyond_m}};

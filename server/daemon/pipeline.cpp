@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <random>
+#include <thread>
 #include <utility>
 
 #include "server/daemon/metrics.h"
@@ -45,7 +46,9 @@ Pipeline::Pipeline(Loop& station, net::Server& network, Store& disk, Templates s
       templates(std::move(scene_templates)),
       clock(daemon_clock),
       boot(random_boot()),
-      publisher(network, scene, solving) {
+      publisher(network, scene, solving),
+      problem_solvers(std::max(1u, std::thread::hardware_concurrency())),
+      workers(problem_solvers.size()) {
   solve_times_.reserve(kTimesKept);
   sample_to_send_.reserve(kTimesKept);
 }
@@ -172,6 +175,7 @@ void Pipeline::on_opened(net::ConnectionId connection, net::Peer peer) {
 
 void Pipeline::on_closed(net::ConnectionId connection) {
   publisher.forget(connection);
+  workers.drop(connection);
   sessions.erase(connection);
 }
 

@@ -17,6 +17,7 @@
 #include "server/daemon/loop.h"
 #include "server/daemon/publisher.h"
 #include "server/daemon/responder.h"
+#include "server/daemon/solve_job.h"
 #include "server/daemon/solving.h"
 #include "server/daemon/templates.h"
 #include "server/net/server.h"
@@ -78,6 +79,8 @@ class Pipeline {
   std::map<net::ConnectionId, Session> sessions;
   std::map<std::string, TrackerState> trackers;
   std::uint64_t frames = 0;
+  ProblemSolvers problem_solvers;  // one a worker
+  WorkerPool workers;
 
  private:
   struct Waiter {

@@ -36,9 +36,9 @@ void Requests::handle(proto::Line line) {
       Responder(answers, i, bad->id).error(bad->error);
       continue;
     }
-    const auto& request = std::get<proto::Request>(line.entries[i]);
+    auto& request = std::get<proto::Request>(line.entries[i]);
     if_revision_ = request.if_revision;
-    std::visit([&](const auto& params) { on(params, Responder(answers, i, request.id)); }, request.params);
+    std::visit([&](auto& params) { on(params, Responder(answers, i, request.id)); }, request.params);
   }
 }
 
@@ -50,7 +50,7 @@ void Requests::on(const proto::SessionHello& hello, Responder responder) {
   result.daemon = kDaemon;
   result.session = session.id;
   result.boot = p_.boot;
-  result.features = {"springs", "reach_tree"};
+  result.features = {"springs", "reach_tree", "solve"};
   result.t_ns = p_.clock.now();
   result.utc_ns = utc_now();
   responder.result(result);

@@ -155,7 +155,7 @@ TEST(Daemon, TheMethodIsSpringsUntilAnotherIsChosen) {
   auto client = daemon.connect();
   EXPECT_EQ(client.call<proto::SolverResult>(proto::SolverGet{})->method, "springs");
   const auto hello = client.call<proto::HelloResult>(proto::SessionHello{});
-  EXPECT_EQ(hello->features, (std::vector<std::string>{"springs", "reach_tree"}));
+  EXPECT_EQ(hello->features, (std::vector<std::string>{"springs", "reach_tree", "solve"}));
   const auto refused = client.call("solver.set", R"({"method":"spring"})");
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().path, "/params/method");
