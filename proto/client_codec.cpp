@@ -71,6 +71,8 @@ Result<Incoming> decode_incoming(std::string_view text) {
   reader.optional("stream", in.stream);
   reader.optional("seq", in.seq);
   reader.optional("dropped", in.dropped);
+  reader.optional("done", in.done);
+  reader.optional("of", in.of);
   if (context.error) return not_from_a_daemon(context.error->message.c_str());
   if (const auto data = params->find("data"); data != params->end()) in.data = data->dump();
   return in;
@@ -105,6 +107,8 @@ POSED_MESSAGE(BindingListResult)
 POSED_MESSAGE(JointResult)
 POSED_MESSAGE(PoseResult)
 POSED_MESSAGE(SolverResult)
+POSED_MESSAGE(SolveResult)
+POSED_MESSAGE(SolveBatchResult)
 POSED_MESSAGE(SceneResult)
 POSED_MESSAGE(SceneListResult)
 POSED_MESSAGE(TrackerListResult)

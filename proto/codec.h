@@ -19,6 +19,11 @@ Line decode_line(std::string_view text);
 template <class ResultMessage>
 std::string encode_reply(const std::string& id, const ResultMessage& result);
 std::string encode_error(const std::string& id, const Error& error);
+// The same in parts, for an answer that is made on several threads: the text of each result, of them all, and the
+// reply.
+std::string encode_solved(const Solved& solved);
+std::string join_solved(const std::vector<std::string>& texts);
+std::string encode_reply_text(const std::string& id, std::string_view result);
 // The line that answers a batch; empty if there is nothing to answer.
 std::string join_batch(const std::vector<std::string>& replies);
 
@@ -31,6 +36,7 @@ std::string encode_scene_snapshot(std::uint64_t seq, std::uint64_t revision, std
 std::string encode_scene_patch(std::uint64_t seq, std::uint64_t from_revision, std::uint64_t revision,
                                std::string_view by, std::string_view patch);
 std::string encode_lost(Stream stream, std::uint64_t dropped);
+std::string encode_progress(const std::string& id, std::size_t done, std::size_t of);  // solve.progress
 
 // ---- documents ----
 
@@ -58,6 +64,7 @@ struct Incoming {
   std::uint64_t seq = 0;
   std::string data;  // JSON text: of a frame's data
   std::uint64_t dropped = 0;
+  std::uint64_t done = 0, of = 0;  // solve.progress
 };
 Result<Incoming> decode_incoming(std::string_view text);
 

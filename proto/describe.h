@@ -337,6 +337,38 @@ void describe(V& v, SolverSet& m) {
 }
 
 template <class V>
+void describe_setting(V& v, ProblemSetting& m) {
+  v.optional("figure", m.figure);
+  v.optional("pins", m.pins);
+  v.optional("start", m.start);
+  v.optional("deadline_us", m.deadline_us);
+  if (m.deadline_us && (*m.deadline_us < 1 || *m.deadline_us > kMaxDeadlineUs))
+    v.fail_at("deadline_us", "out_of_range", "the deadline is out of range", "1 to 10000000 microseconds");
+  v.optional("method", m.method);
+}
+template <class V>
+void describe(V& v, Problem& m) {
+  describe_setting(v, m);
+  v.required("goals", m.goals);
+  if (m.goals.size() > kMaxProblemGoals)
+    v.fail_at("goals", "too_large", "the problem has too many goals", "at most 200");
+}
+template <class V>
+void describe(V& v, Solve& m) {
+  describe(v, static_cast<Problem&>(m));
+  v.optional("fields", m.fields);
+}
+template <class V>
+void describe(V& v, SolveBatch& m) {
+  describe_setting(v, m);
+  v.required("problems", m.problems);
+  if (m.problems.size() > kMaxProblems)
+    v.fail_at("problems", "too_large", "the batch has too many problems", "at most 10000; send it in parts");
+  v.optional("fields", m.fields);
+  v.optional("progress", m.progress);
+}
+
+template <class V>
 void describe(V& v, SceneNew& m) {
   v.optional("template", m.template_name);
 }
@@ -369,6 +401,37 @@ template <class V>
 void describe(V& v, StreamAck& m) {
   v.required("stream", m.stream);
   v.required("seq", m.seq);
+}
+
+// A problem that can not be read spoils none of the others.
+inline void read(ReadContext& c, const Json& j, ProblemEntry& out) {
+  ReadContext own;
+  own.path = c.path;
+  own.strict = c.strict;
+  read(own, j, out.problem);
+  if (!own.error) return;
+  out = {{}, std::move(own.error), j.dump()};
+}
+inline Json write(const ProblemEntry& e) {
+  return e.error ? Json::parse(e.unread, nullptr, false) : write(e.problem);
+}
+
+inline void read(ReadContext& c, const Json& j, FigureChoice& out) {
+  out = {};
+  if (j.is_string()) return read(c, j, out.id);
+  if (!j.is_object()) {
+    return c.fail("wrong_type", "a figure was expected",
+                  R"("body", {"template":"tempus","stature":1.75} or {"format":"posed.figure/1",…})");
+  }
+  if (j.contains("format")) return read(c, j, out.document.emplace());
+  Reader r(c, j);
+  r.required("template", out.template_name);
+  r.optional("stature", out.stature);
+  r.finish();
+}
+inline Json write(const FigureChoice& f) {
+  if (f.document) return write(*f.document);
+  return f.template_name.empty() ? Json(f.id) : Json{{"template", f.template_name}, {"stature", f.stature}};
 }
 
 }  // namespace posed::proto

@@ -203,6 +203,40 @@ void describe(V& v, SolverResult& m) {
   v.required("branch_iterations", m.branch_iterations);
 }
 template <class V>
+void describe(V& v, Error& m) {
+  v.required("code", m.code);
+  v.required("message", m.message);
+  v.optional("path", m.path);
+  v.optional("hint", m.hint);
+}
+template <class V>
+void describe(V& v, SolveResult& m) {
+  v.optional("q", m.q);
+  v.optional("world_from_segment", m.world_from_segment);
+  v.optional("goals", m.goals);
+  v.required("cost", m.cost);
+  v.required("status", m.status);
+  v.required("branch_changed", m.branch_changed);
+  v.required("iterations", m.iterations);
+  v.required("method", m.method);
+  v.required("notes", m.notes);
+  v.required("solve_us", m.solve_us);
+}
+template <class V>
+void describe(V& v, Solved& m) {
+  if constexpr (V::kReads) {
+    if (v.has("error")) m.error.emplace();
+  }
+  if (m.error)
+    v.required("error", *m.error);
+  else
+    describe(v, m.result);
+}
+template <class V>
+void describe(V& v, SolveBatchResult& m) {
+  v.required("results", m.results);
+}
+template <class V>
 void describe(V& v, SceneResult& m) {
   v.required("revision", m.revision);
   v.required("document", m.document);

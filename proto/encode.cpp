@@ -39,7 +39,31 @@ Result<Document> decode_document(std::string_view text, const char* code) {
 
 template <class ResultMessage>
 std::string encode_reply(const std::string& id, const ResultMessage& result) {
-  return "{\"jsonrpc\":\"2.0\",\"id\":" + id + ",\"result\":" + dump(write(result)) + "}";
+  return encode_reply_text(id, dump(write(result)));
+}
+
+std::string encode_reply_text(const std::string& id, std::string_view result) {
+  std::string text = "{\"jsonrpc\":\"2.0\",\"id\":";
+  text.reserve(text.size() + id.size() + result.size() + 16);
+  return text.append(id).append(",\"result\":").append(result).append("}");
+}
+
+std::string encode_solved(const Solved& solved) {
+  return dump(write(solved));
+}
+
+std::string join_solved(const std::vector<std::string>& texts) {
+  std::size_t size = 16;
+  for (const std::string& text : texts) size += text.size() + 1;
+  std::string all = "{\"results\":[";
+  all.reserve(size);
+  for (std::size_t i = 0; i < texts.size(); ++i) all.append(i > 0 ? "," : "").append(texts[i]);
+  return all.append("]}");
+}
+
+std::string encode_progress(const std::string& id, std::size_t done, std::size_t of) {
+  return "{\"jsonrpc\":\"2.0\",\"method\":\"solve.progress\",\"params\":{\"id\":" + id +
+         ",\"done\":" + std::to_string(done) + ",\"of\":" + std::to_string(of) + "}}";
 }
 
 std::string encode_error(const std::string& id, const Error& error) {
@@ -118,6 +142,8 @@ POSED_RESULT(BindingListResult)
 POSED_RESULT(JointResult)
 POSED_RESULT(PoseResult)
 POSED_RESULT(SolverResult)
+POSED_RESULT(SolveResult)
+POSED_RESULT(SolveBatchResult)
 POSED_RESULT(SceneResult)
 POSED_RESULT(SceneListResult)
 POSED_RESULT(TrackerListResult)

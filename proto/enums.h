@@ -40,6 +40,10 @@ struct EnumNames<Cause::Side> {
   static constexpr std::array names{"min", "max", "swing"};
 };
 template <>
+struct EnumNames<Start::Kind> {
+  static constexpr std::array names{"rest", "current", "q"};
+};
+template <>
 struct EnumNames<Binding::Mode> {
   static constexpr std::array names{"absolute", "relative"};
 };

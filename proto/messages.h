@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <variant>
@@ -114,6 +115,49 @@ struct SolverSet {
   Patched<int> branch_iterations;
 };
 
+// ---- stateless solves ----
+
+inline constexpr std::size_t kMaxProblems = 10'000;  // of a solve.batch
+inline constexpr std::size_t kMaxProblemGoals = 200;
+inline constexpr int kMaxDeadlineUs = 10'000'000;
+
+// A figure of the scene by its id, a built-in one, or a document.
+struct FigureChoice {
+  std::string id;
+  std::string template_name;
+  double stature = 1.75;
+  std::optional<FigureDocument> document;
+};
+struct Start {
+  enum class Kind { rest, current, q } kind = Kind::rest;
+  std::vector<double> q;
+};
+// What a problem says, or a batch says for those of its problems that do not.
+struct ProblemSetting {
+  std::optional<FigureChoice> figure;
+  std::optional<std::map<std::string, Pin>> pins;
+  std::optional<Start> start;  // none: from several starts
+  std::optional<int> deadline_us;
+  std::optional<std::string> method;
+};
+struct Problem : ProblemSetting {
+  std::vector<GoalSet> goals;
+};
+struct Solve : Problem {
+  std::vector<std::string> fields;  // of the answer; empty: all
+};
+// A problem of a batch, or what is wrong with it: the others are solved all the same.
+struct ProblemEntry {
+  Problem problem;
+  std::optional<Error> error;
+  std::string unread;  // JSON text of what is wrong
+};
+struct SolveBatch : ProblemSetting {
+  std::vector<ProblemEntry> problems;
+  std::vector<std::string> fields;
+  bool progress = false;
+};
+
 struct SceneGet {};
 struct SceneNew {
   std::string template_name = "standing";
@@ -149,8 +193,8 @@ struct StreamAck {
 using Params = std::variant<SessionHello, SessionPing, SessionStatus, SessionList, FigureSet, FigureGet, FigureList,
                             FigureRemove, FigurePin, GoalSet, GoalGet, GoalList, GoalRemove, GoalClear, BindingSet,
                             BindingGet, BindingList, BindingRemove, JointSet, JointGet, PoseGet, PoseSet, PoseReset,
-                            PoseMirror, SolverGet, SolverSet, SceneGet, SceneNew, SceneList, SceneSave, SceneOpen,
-                            TrackerList, StreamSubscribe, StreamUnsubscribe, StreamAck>;
+                            PoseMirror, SolverGet, SolverSet, Solve, SolveBatch, SceneGet, SceneNew, SceneList,
+                            SceneSave, SceneOpen, TrackerList, StreamSubscribe, StreamUnsubscribe, StreamAck>;
 
 struct Request {
   std::string id;                            // JSON text of the id; empty: a notification, which gets no reply
@@ -262,10 +306,12 @@ struct GoalFrame {
   Vec3 force{0.0, 0.0, 0.0};
   GoalState state = GoalState::off;
   struct Because {
-    std::string goal;  // empty: the next
+    std::string goal;  // empty: one of the others
     double beyond_m = 0.0;
-    std::string limit = {};  // a joint's name; its limit on this side. Empty: one of the others
+    std::string limit = {};  // a joint's name; its limit on this side
     Cause::Side side = Cause::Side::min;
+    std::string pin = {};     // a segment
+    std::string figure = {};  // whose limit or pin, where it is another than the goal's
   };
   std::vector<Because> causes;
 };
@@ -290,6 +336,26 @@ struct PoseResult {
 struct SolverResult {
   std::string method;
   int iterations = 0, branch_iterations = 0;
+};
+// Of a stateless solve; q, world_from_segment and goals where they were asked for.
+struct SolveResult {
+  std::optional<std::vector<double>> q;
+  std::optional<std::vector<Transform>> world_from_segment;
+  std::optional<std::vector<GoalFrame>> goals;
+  double cost = 0.0;
+  SolveStatus status = SolveStatus::converged;
+  int iterations = 0;
+  bool branch_changed = false;
+  std::string method;
+  std::vector<std::string> notes;
+  double solve_us = 0.0;
+};
+struct Solved {
+  SolveResult result;
+  std::optional<Error> error;  // then there is no result
+};
+struct SolveBatchResult {
+  std::vector<Solved> results;  // in the order of the problems
 };
 struct SceneResult {
   std::uint64_t revision = 0;

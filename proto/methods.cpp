@@ -57,6 +57,8 @@ constexpr std::array kMethods{
     method<PoseMirror>("pose.mirror", kEdits),
     method<SolverGet>("solver.get"),
     method<SolverSet>("solver.set"),
+    method<Solve>("solve"),
+    method<SolveBatch>("solve.batch"),
     method<SceneGet>("scene.get"),
     method<SceneNew>("scene.new"),
     method<SceneList>("scene.list"),
@@ -70,10 +72,10 @@ constexpr std::array kMethods{
 static_assert(kMethods.size() == std::variant_size_v<Params>);
 
 constexpr const char* kReserved[] = {
-    "scene.remove",    "object.set",        "object.get",    "object.list",   "object.remove", "camera.set",
-    "camera.get",      "camera.list",       "camera.remove", "goal.grab",     "goal.release",  "solve",
-    "solve.batch",     "edit.apply",        "edit.undo",     "edit.redo",     "edit.history",  "tracker.grab",
-    "tracker.release", "tracker.configure", "tracker.align", "tracker.reset",
+    "scene.remove", "object.set",      "object.get",        "object.list",   "object.remove",
+    "camera.set",   "camera.get",      "camera.list",       "camera.remove", "goal.grab",
+    "goal.release", "edit.apply",      "edit.undo",         "edit.redo",     "edit.history",
+    "tracker.grab", "tracker.release", "tracker.configure", "tracker.align", "tracker.reset",
 };
 
 }  // namespace

@@ -221,6 +221,16 @@ void read(ReadContext& c, const Json& j, Axes& out) {
   }
 }
 
+void read(ReadContext& c, const Json& j, Start& out) {
+  out = {};
+  if (j.is_string() && j != "q") return read(c, j, out.kind);
+  if (!j.is_object()) return c.fail("wrong_type", "a start was expected", R"("rest", "current" or {"q":[…]})");
+  out.kind = Start::Kind::q;
+  Reader r(c, j);
+  r.required("q", out.q);
+  r.finish();
+}
+
 void read(ReadContext& c, const Json& j, GoalFrame::Because& out) {
   if (!expect_object(c, j)) return;
   Reader r(c, j);
@@ -228,6 +238,8 @@ void read(ReadContext& c, const Json& j, GoalFrame::Because& out) {
   r.optional("beyond_m", out.beyond_m);
   r.optional("limit", out.limit);
   r.optional("side", out.side);
+  r.optional("pin", out.pin);
+  r.optional("figure", out.figure);
   r.finish();
 }
 

@@ -79,6 +79,7 @@ void read(ReadContext& c, const Json& j, GoalBase& out);
 void read(ReadContext& c, const Json& j, GoalWeight& out);
 void read(ReadContext& c, const Json& j, JointValue& out);
 void read(ReadContext& c, const Json& j, Axes& out);
+void read(ReadContext& c, const Json& j, Start& out);
 void read(ReadContext& c, const Json& j, GoalFrame::Because& out);
 void read(ReadContext& c, const Json& j, std::pair<std::string, std::string>& out);
 

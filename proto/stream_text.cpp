@@ -103,9 +103,16 @@ void append_goal(std::string& out, const GoalFrame& goal) {
       append_id(out, cause.limit);
       out += ",\"side\":";
       append_id(out, word(cause.side));
+    } else if (!cause.pin.empty()) {
+      out += "{\"pin\":";
+      append_id(out, cause.pin);
     } else {
       out += "{\"beyond_m\":";
       append_fixed(out, cause.beyond_m, kMetreDecimals);
+    }
+    if (!cause.figure.empty()) {
+      out += ",\"figure\":";
+      append_id(out, cause.figure);
     }
     out += '}';
   }

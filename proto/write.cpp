@@ -74,9 +74,16 @@ Json write(const JointValue& v) {
   return j;
 }
 
+Json write(const Start& s) {
+  return s.kind == Start::Kind::q ? Json{{"q", write(s.q)}} : Json(word(s.kind));
+}
+
 Json write(const GoalFrame::Because& b) {
   if (!b.goal.empty()) return Json{{"goal", b.goal}};
-  return b.limit.empty() ? Json{{"beyond_m", b.beyond_m}} : Json{{"limit", b.limit}, {"side", word(b.side)}};
+  if (b.pin.empty() && b.limit.empty()) return Json{{"beyond_m", b.beyond_m}};
+  Json j = b.pin.empty() ? Json{{"limit", b.limit}, {"side", word(b.side)}} : Json{{"pin", b.pin}};
+  if (!b.figure.empty()) j["figure"] = b.figure;
+  return j;
 }
 
 }  // namespace posed::proto

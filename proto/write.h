@@ -18,6 +18,7 @@ Json write(const GoalBase& b);
 Json write(const GoalWeight& w);
 Json write(const JointValue& v);
 Json write(const Axes& a);
+Json write(const Start& s);
 Json write(const GoalFrame::Because& b);
 Json write(const std::pair<std::string, std::string>& pair);
 
@@ -33,6 +34,10 @@ requires std::is_enum_v<E> Json write(E value) {
 
 template <Described T>
 Json write(const T& value);
+template <class T>
+Json write(const std::vector<T>& items);
+template <class T>
+Json write(const std::map<std::string, T>& items);
 
 template <class T>
 Json write(const std::optional<T>& value) {

@@ -36,6 +36,9 @@ int get_pose(const Session& session, const std::string& figure);
 int reset_pose(const Session& session, const std::string& figure, const std::string& to);
 int mirror_pose(const Session& session, const std::string& figure);
 
+// `file` of "-" is standard input: a problem of `solve`, or of `solve.batch`.
+int run_solve(const Session& session, const std::string& file, bool batch);
+
 int list_trackers(const Session& session);
 
 int list_scenes(const Session& session);

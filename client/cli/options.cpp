@@ -93,6 +93,19 @@ void add_pose(CLI::App& app, Run& run) {
   }
 }
 
+void add_solve(CLI::App& app, Run& run) {
+  struct Solve {
+    std::string file;
+    bool batch = false;
+  };
+  auto solve = std::make_shared<Solve>();
+  auto* command = app.add_subcommand("solve", "solve a problem that touches no scene");
+  command->add_option("file", solve->file, "its JSON object, as in PROTOCOL.md; - reads standard input")->required();
+  command->add_flag("--batch", solve->batch, "the file holds many: {\"problems\":[...]}");
+  command->callback(
+      [&run, solve] { run = [solve](const Session& s) { return run_solve(s, solve->file, solve->batch); }; });
+}
+
 void add_tracker(CLI::App& app, Run& run) {
   auto* tracker = app.add_subcommand("tracker", "the trackers and how they are");
   tracker->callback([&run] { run = list_trackers; });
@@ -145,6 +158,7 @@ std::variant<Options, int> parse_options(int argc, const char* const* argv) {
   add_watch(app, options.run);
   add_goal(app, options.run);
   add_pose(app, options.run);
+  add_solve(app, options.run);
   add_tracker(app, options.run);
   add_scene(app, options.run);
   add_call(app, options.run);

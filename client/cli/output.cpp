@@ -1,6 +1,17 @@
 #include "client/cli/output.h"
 
 namespace posed::cli {
+namespace {
+
+std::string because(const proto::GoalFrame::Because& cause) {
+  const std::string whose = cause.figure.empty() ? "" : " of " + cause.figure;
+  if (!cause.goal.empty()) return "held by " + cause.goal;
+  if (!cause.pin.empty()) return "held by the pin of " + cause.pin + whose;
+  if (!cause.limit.empty()) return "at a limit of " + cause.limit + whose;
+  return format("%.1f mm beyond reach", cause.beyond_m * 1e3);
+}
+
+}  // namespace
 
 int fail(const Error& error) {
   std::string text = "posectl: " + error.message;
@@ -17,6 +28,14 @@ void print_line(std::string_view text) {
   std::fwrite(text.data(), 1, text.size(), stdout);
   std::fputc('\n', stdout);
   std::fflush(stdout);
+}
+
+void print_goal(const proto::GoalFrame& goal) {
+  std::string line = format("  %s  %s  error %.1f mm  touch [%.4f %.4f %.4f]", goal.id.c_str(),
+                            std::string(proto::name_of(goal.state)).c_str(), goal.error * 1e3, goal.touch.x,
+                            goal.touch.y, goal.touch.z);
+  for (const auto& cause : goal.causes) line += "  " + because(cause);
+  print_line(line);
 }
 
 int edit(const Session& session, const proto::Params& params, const std::string& done) {

@@ -12,6 +12,7 @@ namespace posed::cli {
 int fail(const Error& error);
 
 void print_line(std::string_view text);
+void print_goal(const proto::GoalFrame& goal);  // with what holds it
 
 // At most `size` of printf's output as a string.
 template <class... Args>

@@ -9,15 +9,7 @@ void show(const proto::PoseResult& result) {
                     static_cast<double>(result.t_ns) * 1e-9, static_cast<unsigned long long>(result.revision),
                     std::string(proto::name_of(pose.status)).c_str(), result.method.c_str(), result.solve_us,
                     result.iterations, pose.cost));
-  for (const proto::GoalFrame& goal : pose.goals) {
-    std::string line = format("  %s  %s  error %.1f mm  touch [%.4f %.4f %.4f]", goal.id.c_str(),
-                              std::string(proto::name_of(goal.state)).c_str(), goal.error * 1e3, goal.touch.x,
-                              goal.touch.y, goal.touch.z);
-    for (const auto& cause : goal.causes) {
-      line += cause.goal.empty() ? format("  %.1f mm beyond reach", cause.beyond_m * 1e3) : "  held by " + cause.goal;
-    }
-    print_line(line);
-  }
+  for (const proto::GoalFrame& goal : pose.goals) print_goal(goal);
   for (const std::string& note : result.notes) print_line("  note: " + note);
 }
 

@@ -68,6 +68,7 @@ struct Client::Impl {
   std::array<std::uint64_t, proto::kStreams> lost{};
   std::array<int, proto::kStreams> credit{};
   std::int64_t next_id = 1;
+  std::function<void(std::uint64_t, std::uint64_t)> progress;
 };
 
 Status Client::Impl::connect(TimePoint until) {
@@ -137,6 +138,7 @@ Result<proto::Incoming> Client::Impl::receive(TimePoint until) {
 }
 
 void Client::Impl::keep(proto::Incoming frame) {
+  if (frame.method == "solve.progress" && progress) progress(frame.done, frame.of);
   if (!frame.stream) return;
   const auto stream = static_cast<std::size_t>(*frame.stream);
   if (frame.method == "stream.lost") lost[stream] += frame.dropped;
@@ -181,6 +183,10 @@ Result<Client> Client::connect(std::string_view address, Duration timeout) {
 
 void Client::set_timeout(Duration timeout) {
   impl_->timeout = timeout;
+}
+
+void Client::on_progress(std::function<void(std::uint64_t done, std::uint64_t of)> told) {
+  impl_->progress = std::move(told);
 }
 
 Result<std::string> Client::call(std::string_view method, std::string_view params_json) {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -26,6 +27,8 @@ class Client {
   Client& operator=(Client&&) noexcept;
 
   void set_timeout(Duration timeout);
+  // Called while a solve.batch that asks for "progress" is waited for.
+  void on_progress(std::function<void(std::uint64_t done, std::uint64_t of)> told);
 
   // Both give the JSON text of the result.
   Result<std::string> call(std::string_view method, std::string_view params_json = "{}");

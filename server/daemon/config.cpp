@@ -69,6 +69,9 @@ std::optional<Config> read_config(int argc, const char* const* argv, int& exit_c
   app.add_option("--scene.template", config.scene_template, "the scene to start with")->capture_default_str();
   app.add_option("--scene.path", config.scenes, "the folder of scene templates")->capture_default_str();
   app.add_option("--viewer.path", config.viewer, "the folder of the built viewer")->capture_default_str();
+  app.add_option("--solver.method", config.solve_method, "springs, or reach_tree: the paper's own")
+      ->check(CLI::IsMember({"springs", "reach_tree"}).description(""))
+      ->capture_default_str();
   app.add_option("--solver.deadline_ms", config.solve_deadline_ms, "a solve ends after this time")
       ->check(CLI::Range(0.1, 10'000.0))
       ->capture_default_str();

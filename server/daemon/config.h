@@ -20,7 +20,8 @@ struct Config {
   std::filesystem::path scenes;
   std::string scene_template = "standing";
   LogLevel log = LogLevel::info;
-  double solve_deadline_ms = 20.0;  // a solve that takes longer ends with the best pose so far
+  std::string solve_method = "springs";  // or "reach_tree"
+  double solve_deadline_ms = 20.0;       // a solve that takes longer ends with the best pose so far
 };
 
 // Reads the arguments. Where the program has to end instead (--help, --version, a mistake), prints what there is to

@@ -47,6 +47,7 @@ struct Daemon::Impl {
         pipeline(loop, server, store, Templates(config.scenes), clock),
         trackers(make_trackers(config, clock)) {
     pipeline.solving.deadline_ns = static_cast<Nanoseconds>(config.solve_deadline_ms * 1e6);
+    pipeline.solving.method = pipeline.default_method = *find_method(config.solve_method);
     const Result<std::string> text = pipeline.templates.read(config.scene_template);
     if (!text)
       throw std::runtime_error("the scene " + config.scene_template + ": " + text.error().message +

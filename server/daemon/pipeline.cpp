@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <random>
+#include <thread>
+#include <utility>
 
 #include "server/daemon/metrics.h"
 #include "server/daemon/requests.h"
@@ -18,6 +20,7 @@ std::string random_boot() {
 }
 
 constexpr std::size_t kTimesKept = 4096;
+constexpr Nanoseconds kStreamPeriod = 1'000'000'000 / 240;
 
 void keep(std::vector<Nanoseconds>& times, Nanoseconds time) {
   if (times.size() < kTimesKept) times.push_back(time);
@@ -43,7 +46,9 @@ Pipeline::Pipeline(Loop& station, net::Server& network, Store& disk, Templates s
       templates(std::move(scene_templates)),
       clock(daemon_clock),
       boot(random_boot()),
-      publisher(network, scene, solving) {
+      publisher(network, scene, solving),
+      problem_solvers(std::max(1u, std::thread::hardware_concurrency())),
+      workers(problem_solvers.size()) {
   solve_times_.reserve(kTimesKept);
   sample_to_send_.reserve(kTimesKept);
 }
@@ -82,9 +87,10 @@ void Pipeline::wake_solver(bool live_only) {
 }
 
 void Pipeline::solve() {
-  solving.solve(scene, solve_live_only_, clock);
+  const bool way_to_go = solving.solve(scene, solve_live_only_, clock);
   solve_due_ = false;
   solve_live_only_ = true;
+  if (way_to_go) go_on();
   publisher.publish_pose(pose_t_ns_);
   keep(solve_times_, solving.last_solve_ns());
   if (sample_t_ns_) keep(sample_to_send_, clock.now() - *sample_t_ns_);
@@ -98,6 +104,15 @@ void Pipeline::solve() {
     waiters_.erase(waiters_.begin() + static_cast<std::ptrdiff_t>(i));
     reply_pose(waiter.figure, waiter.responder);
   }
+}
+
+// A sensor that has jumped and now stands still sends nothing new: the figure catches up at a stream's pace.
+void Pipeline::go_on() {
+  if (std::exchange(going_on_, true)) return;
+  loop.after(kStreamPeriod, [this] {
+    going_on_ = false;
+    wake_solver(true);
+  });
 }
 
 Status Pipeline::load_scene(std::string_view text, net::ConnectionId by) {
@@ -126,15 +141,16 @@ void Pipeline::reply_pose(const std::string& figure, Responder& responder) const
   if (solved == solving.figures().end()) {
     return responder.error({"unknown_figure", "figure " + figure + " is gone", "/params/figure", ""});
   }
-  const SolveReport& report = solved->second.pose.report;
+  const FigureGroup& group = *solved->second.group;
+  const SolveReport& report = group.report();
   proto::PoseResult result;
   result.pose = solving.message(figure);
   result.t_ns = pose_t_ns_;
   result.revision = solving.revision();
   result.iterations = report.iterations;
   result.chain_solves = report.chain_solves;
-  result.method = solving.method;
-  result.notes = solved->second.notes;
+  result.method = name_of(group.method());
+  result.notes = group.notes();
   result.balance_error = report.balance_error;
   result.solve_us = 1e-3 * static_cast<double>(solved->second.solve_ns);
   responder.result(result);
@@ -159,6 +175,7 @@ void Pipeline::on_opened(net::ConnectionId connection, net::Peer peer) {
 
 void Pipeline::on_closed(net::ConnectionId connection) {
   publisher.forget(connection);
+  workers.drop(connection);
   sessions.erase(connection);
 }
 

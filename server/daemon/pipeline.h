@@ -17,6 +17,7 @@
 #include "server/daemon/loop.h"
 #include "server/daemon/publisher.h"
 #include "server/daemon/responder.h"
+#include "server/daemon/solve_job.h"
 #include "server/daemon/solving.h"
 #include "server/daemon/templates.h"
 #include "server/net/server.h"
@@ -73,10 +74,13 @@ class Pipeline {
   const std::string boot;
   Scene scene;
   Solving solving;
+  Method default_method = Method::springs;  // what solver.set goes back to
   Publisher publisher;
   std::map<net::ConnectionId, Session> sessions;
   std::map<std::string, TrackerState> trackers;
   std::uint64_t frames = 0;
+  ProblemSolvers problem_solvers;  // one a worker
+  WorkerPool workers;
 
  private:
   struct Waiter {
@@ -88,11 +92,13 @@ class Pipeline {
 
   void wake_solver(bool live_only);
   void solve();
+  void go_on();
   void reply_pose(const std::string& figure, Responder& responder) const;
   void tick();
 
   bool solve_due_ = false;
   bool solve_live_only_ = true;
+  bool going_on_ = false;
   std::optional<Nanoseconds> sample_t_ns_;  // arrival of the oldest sample that waits for its solve
   Nanoseconds pose_t_ns_ = 0;
   std::vector<Waiter> waiters_;

@@ -21,6 +21,22 @@ bool Publisher::Channel::operator<(const Channel& o) const {
   return std::tie(stream, figures, fields) < std::tie(o.stream, o.figures, o.fields);
 }
 
+Status Publisher::check_fields(const std::vector<std::string>& fields) {
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    if (std::find(kPoseFields.begin(), kPoseFields.end(), fields[i]) == kPoseFields.end()) {
+      return Error{"invalid_params", "a pose has no field " + fields[i].substr(0, 64), "/fields/" + std::to_string(i),
+                   did_you_mean(fields[i], kPoseFields)};
+    }
+  }
+  return Ok{};
+}
+
+proto::PoseFields Publisher::fields_of(const std::vector<std::string>& fields) {
+  if (fields.empty()) return {};
+  const auto wanted = [&](const char* name) { return std::find(fields.begin(), fields.end(), name) != fields.end(); };
+  return {wanted("world_from_segment"), wanted("q"), wanted("goals")};
+}
+
 Status Publisher::check(const proto::StreamSubscribe& wish) const {
   std::vector<std::string> known;
   for (const auto& [id, figure] : scene_.figures()) known.push_back(id);
@@ -30,12 +46,7 @@ Status Publisher::check(const proto::StreamSubscribe& wish) const {
                    "/figures/" + std::to_string(i), did_you_mean(wish.figures[i], known)};
     }
   }
-  for (std::size_t i = 0; i < wish.fields.size(); ++i) {
-    if (std::find(kPoseFields.begin(), kPoseFields.end(), wish.fields[i]) == kPoseFields.end()) {
-      return Error{"invalid_params", "the pose stream has no field " + wish.fields[i].substr(0, 64),
-                   "/fields/" + std::to_string(i), did_you_mean(wish.fields[i], kPoseFields)};
-    }
-  }
+  if (const Status checked = check_fields(wish.fields); !checked) return checked;
   if (wish.stream != proto::Stream::pose && !(wish.figures.empty() && wish.fields.empty())) {
     return Error{"invalid_params", "only the pose stream has figures and fields to choose",
                  wish.figures.empty() ? "/fields" : "/figures", "leave it out"};
@@ -47,12 +58,7 @@ Publisher::Channel Publisher::channel_of(const proto::StreamSubscribe& wish) {
   Channel channel{wish.stream, wish.figures, {}};
   std::sort(channel.figures.begin(), channel.figures.end());
   channel.figures.erase(std::unique(channel.figures.begin(), channel.figures.end()), channel.figures.end());
-  if (!wish.fields.empty()) {
-    const auto wanted = [&](const char* name) {
-      return std::find(wish.fields.begin(), wish.fields.end(), name) != wish.fields.end();
-    };
-    channel.fields = {wanted("world_from_segment"), wanted("q"), wanted("goals")};
-  }
+  channel.fields = fields_of(wish.fields);
   return channel;
 }
 
@@ -107,7 +113,7 @@ net::SharedLine Publisher::encode_pose(const Channel& channel, std::uint64_t seq
   proto::PoseData data;
   data.t_ns = t_ns;
   data.revision = solving_.revision();
-  for (const auto& [id, figure] : solving_.figures()) {
+  for (const auto& [id, solved] : solving_.figures()) {
     if (channel.figures.empty() || std::binary_search(channel.figures.begin(), channel.figures.end(), id)) {
       data.figures.push_back(solving_.message(id));
     }

@@ -21,6 +21,9 @@ class Publisher {
   Publisher(net::Server& server, const Scene& scene, const Solving& solving)
       : server_(server), scene_(scene), solving_(solving) {}
 
+  // Of a pose; none means all. Errors: "invalid_params" for a field that is none, path "/fields/0".
+  static Status check_fields(const std::vector<std::string>& fields);
+  static proto::PoseFields fields_of(const std::vector<std::string>& fields);
   // Errors: "unknown_figure", "invalid_params" for a field that is none.
   Status check(const proto::StreamSubscribe& wish) const;
   // Replaces the connection's subscription of this stream. The present state goes out at once. `wish` is checked.

@@ -46,6 +46,9 @@ class Requests {
   void on(const proto::SolverGet&, Responder);
   void on(const proto::SolverSet&, Responder);
 
+  void on(proto::Solve&, Responder);
+  void on(proto::SolveBatch&, Responder);
+
   void on(const proto::SceneGet&, Responder);
   void on(const proto::SceneNew&, Responder);
   void on(const proto::SceneList&, Responder);
@@ -57,6 +60,7 @@ class Requests {
   void on(const proto::StreamAck&, Responder);
 
   void answer(const Result<Edited>& edited, Responder& responder);
+  void start_solving(proto::SolveBatch batch, bool alone, Responder responder);
   void answer_loaded(const Status& loaded, Responder& responder);
 
   Pipeline& p_;

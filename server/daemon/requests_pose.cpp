@@ -17,7 +17,7 @@ Result<int> joint_of(const BodyTree& tree, const std::string& name) {
 }
 
 proto::SolverResult message(const Solving& solving) {
-  return {solving.method, solving.options.root_iterations, solving.options.branch_iterations};
+  return {name_of(solving.method), solving.iterations, solving.branch_iterations};
 }
 
 }  // namespace
@@ -91,29 +91,24 @@ void Requests::on(const proto::SolverGet&, Responder responder) {
 }
 
 void Requests::on(const proto::SolverSet& m, Responder responder) {
-  std::string method = p_.solving.method;
-  m.method.apply(method, Solving{}.method);
-  if (method != "reach_tree" && method != "springs") {
-    return responder.error({"invalid_params", "no method is called " + method.substr(0, 64), "/params/method",
-                            kSpringsAvailable ? "springs or reach_tree" : "use reach_tree"});
-  }
-  if (method == "springs" && !kSpringsAvailable) {
-    return responder.error({"not_available", "the method springs is reserved: this daemon does not do it yet",
-                            "/params/method", "use reach_tree"});
-  }
-  ReachTreeOptions options = p_.solving.options;
-  m.iterations.apply(options.root_iterations, ReachTreeOptions{}.root_iterations);
-  m.branch_iterations.apply(options.branch_iterations, ReachTreeOptions{}.branch_iterations);
-  if (options.root_iterations < 1 || options.root_iterations > 100'000) {
+  std::string method = name_of(p_.solving.method);
+  m.method.apply(method, name_of(p_.default_method));
+  const Result<Method> found = find_method(method);
+  if (!found) return responder.params_error(found.error());
+  int iterations = p_.solving.iterations, branch_iterations = p_.solving.branch_iterations;
+  m.iterations.apply(iterations, Solving{}.iterations);
+  m.branch_iterations.apply(branch_iterations, Solving{}.branch_iterations);
+  if (iterations < 1 || iterations > 100'000) {
     return responder.error({"out_of_range", "the number of iterations is out of range", "/params/iterations",
                             "1 to 100000; the default is 200"});
   }
-  if (options.branch_iterations < 1 || options.branch_iterations > 100) {
+  if (branch_iterations < 1 || branch_iterations > 100) {
     return responder.error({"out_of_range", "the number of iterations is out of range", "/params/branch_iterations",
                             "1 to 100; the default is 1"});
   }
-  p_.solving.method = method;
-  p_.solving.options = options;
+  p_.solving.method = *found;
+  p_.solving.iterations = iterations;
+  p_.solving.branch_iterations = branch_iterations;
   responder.result(message(p_.solving));
   p_.resolve();
 }

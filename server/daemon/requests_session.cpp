@@ -36,9 +36,9 @@ void Requests::handle(proto::Line line) {
       Responder(answers, i, bad->id).error(bad->error);
       continue;
     }
-    const auto& request = std::get<proto::Request>(line.entries[i]);
+    auto& request = std::get<proto::Request>(line.entries[i]);
     if_revision_ = request.if_revision;
-    std::visit([&](const auto& params) { on(params, Responder(answers, i, request.id)); }, request.params);
+    std::visit([&](auto& params) { on(params, Responder(answers, i, request.id)); }, request.params);
   }
 }
 
@@ -50,8 +50,7 @@ void Requests::on(const proto::SessionHello& hello, Responder responder) {
   result.daemon = kDaemon;
   result.session = session.id;
   result.boot = p_.boot;
-  result.features = {"reach_tree"};
-  if (kSpringsAvailable) result.features.push_back("springs");
+  result.features = {"springs", "reach_tree", "solve"};
   result.t_ns = p_.clock.now();
   result.utc_ns = utc_now();
   responder.result(result);
@@ -66,7 +65,7 @@ void Requests::on(const proto::SessionStatus&, Responder responder) {
   result.daemon = kDaemon;
   result.t_ns = p_.clock.now();
   result.revision = p_.scene.revision();
-  result.method = p_.solving.method;
+  result.method = name_of(p_.solving.method);
   result.connections = static_cast<int>(p_.sessions.size());
   for (const auto& [id, figure] : p_.scene.figures()) result.figures.push_back(id);
   result.goals = static_cast<int>(p_.scene.goals().size());

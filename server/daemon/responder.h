@@ -34,13 +34,20 @@ class Responder {
     if (id_.empty()) log_debug("a notification failed: " + error.message);
     deliver(id_.empty() ? std::string() : proto::encode_error(id_, error));
   }
+  // The reply to a result that is text already, and a notice on the way to it. From any thread.
+  std::string reply_text(std::string_view result) const {
+    return id_.empty() ? std::string() : proto::encode_reply_text(id_, result);
+  }
+  std::string progress_text(std::size_t done, std::size_t of) const { return proto::encode_progress(id_, done, of); }
+  bool wanted() const { return !id_.empty(); }
+
   // An error of the scene, whose paths begin at the parameters.
   void params_error(Error error) {
     if (!error.path.empty()) error.path = "/params" + error.path;
     this->error(error);
   }
 
- private:
+  // A text of reply_text.
   void deliver(std::string text) {
     Answers& a = *answers_;
     a.texts[index_] = std::move(text);
@@ -49,6 +56,7 @@ class Responder {
     a.server.reply(a.connection, line.empty() ? nullptr : std::make_shared<const std::string>(std::move(line)));
   }
 
+ private:
   std::shared_ptr<Answers> answers_;
   std::size_t index_;
   std::string id_;

@@ -1,107 +1,99 @@
 #include "server/daemon/solving.h"
 
 #include <algorithm>
-#include <limits>
+
+#include "server/scene/spring_goals.h"
 
 namespace posed {
 namespace {
 
-// The paper's solver takes hold of points and pulls them to places of the world.
-bool reach_tree_takes(const SceneGoal& goal) {
-  return std::holds_alternative<PositionTarget>(goal.goal.payload) &&
-         goal.goal.relative_to.kind == GoalBase::Kind::world;
-}
+// Streams go on from frame to frame: a pose is right to half a tenth of a millimetre, and no joint turns faster than
+// this, rad a solve.
+constexpr double kLiveAccuracy = 5e-5;
+constexpr double kLiveTurn = 0.25;
+constexpr double kStillMoves = 0.05;  // of a value of q: well below what kLiveTurn allows
 
-// What it makes of them all.
-void note_goals(SolvedFigure& figure) {
-  const auto& goals = figure.sources;
-  if (std::any_of(goals.begin(), goals.end(), [](const SceneGoal* goal) { return !reach_tree_takes(*goal); }))
-    figure.notes.push_back("only position goals relative to the world pull; the others are off");
-  if (std::any_of(goals.begin(), goals.end(), [](const SceneGoal* goal) { return goal->goal.priority != 0; }))
-    figure.notes.push_back("priorities count as equal");
+// Figures that goals tie together have the same number.
+std::map<std::string, std::size_t> tie(const Scene& scene, Method method) {
+  std::map<std::string, std::size_t> group;
+  std::size_t next = 0;
+  for (const auto& [id, figure] : scene.figures()) group[id] = next++;
+  if (method == Method::reach_tree) return group;
+  for (const auto& [id, goal] : scene.goals()) {
+    if (!joins_figures(goal)) continue;
+    const std::size_t a = group.at(goal.goal.figure), b = group.at(goal.goal.relative_to.figure);
+    for (auto& [figure, number] : group) {
+      if (number == b) number = a;
+    }
+  }
+  return group;
 }
-
-// A target that is no point turns its goal off.
-constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
-void Solving::gather(const Scene& scene) {
-  std::erase_if(figures_, [&](const auto& entry) { return !scene.figures().contains(entry.first); });
-  for (const auto& [id, figure] : scene.figures()) {
-    SolvedFigure& solved = figures_[id];
-    if (!solved.solver || &solved.solver->tree() != figure.tree.get()) {
-      solved.solver = std::make_unique<ReachTreeSolver>(figure.tree);
-    }
-    solved.sources.clear();
-    solved.goals.clear();
-    solved.notes = {"joints count as balls and keep no limits"};
-    if (!figure.entry.pins.empty()) solved.notes.push_back("pins are not kept");
+// A solver is kept where its figures are the same: it need not lay out the same goals again.
+std::unique_ptr<FigureGroup> Solving::make_group(const std::vector<const SceneFigure*>& figures) {
+  std::vector<std::shared_ptr<const BodyTree>> trees;
+  for (const SceneFigure* figure : figures) trees.push_back(figure->tree);
+  for (auto& group : groups_) {
+    if (group && group->method() == method && group->trees() == trees) return std::move(group);
   }
-  for (const auto& [id, goal] : scene.goals()) {
-    SolvedFigure& solved = figures_.at(goal.goal.figure);
-    solved.sources.push_back(&goal);
-    solved.goals.push_back({goal.at.segment, goal.at.point, goal.target(), goal.goal.weight.value, goal.goal.tolerance,
-                            goal.goal.enabled});
-  }
-  for (auto& [id, solved] : figures_) note_goals(solved);
+  return std::make_unique<FigureGroup>(method, std::move(trees));
 }
 
-void Solving::solve(Scene& scene, bool live_only, const Clock& clock) {
-  const bool edited = revision_ != scene.revision();
+void Solving::gather(const Scene& scene) {
+  const std::map<std::string, std::size_t> tied = tie(scene, method);
+  std::map<std::size_t, std::pair<std::vector<const SceneFigure*>, std::vector<const SceneGoal*>>> parts;
+  for (const auto& [id, figure] : scene.figures()) parts[tied.at(id)].first.push_back(&figure);
+  for (const auto& [id, goal] : scene.goals()) parts[tied.at(goal.goal.figure)].second.push_back(&goal);
+  std::vector<std::unique_ptr<FigureGroup>> groups;
+  figures_.clear();
+  for (auto& [number, part] : parts) {
+    FigureGroup& group = *groups.emplace_back(make_group(part.first));
+    group.set(std::move(part.first), std::move(part.second));
+    for (std::size_t i = 0; i < group.ids().size(); ++i) figures_[group.ids()[i]] = {&group, i, 0};
+  }
+  groups_ = std::move(groups);
+  gathered_ = method;
+}
+
+SolverOptions Solving::options(bool live_only) const {
+  SolverOptions options;
+  options.reach_tree.root_iterations = options.springs.iterations = iterations;
+  options.reach_tree.branch_iterations = branch_iterations;
+  options.springs.explore = !live_only;
+  if (live_only) {
+    options.springs.accuracy = kLiveAccuracy;
+    options.springs.most_turn = kLiveTurn;
+  }
+  return options;
+}
+
+bool Solving::solve(Scene& scene, bool live_only, const Clock& clock) {
+  const bool edited = revision_ != scene.revision() || gathered_ != method;
   if (edited) gather(scene);
   revision_ = scene.revision();
-  for (auto& [id, figure] : figures_) {
-    bool live = false;
-    for (std::size_t i = 0; i < figure.sources.size(); ++i) {
-      const SceneGoal& goal = *figure.sources[i];
-      live = live || goal.follows_sensors();
-      figure.goals[i].target = reach_tree_takes(goal) ? goal.target() : Vec3(kNowhere);
-    }
-    if (live_only && !edited && !live) continue;
-    const std::vector<double>& present = scene.figures().at(id).q;
-    figure.q.assign(present.begin(), present.end());
+  const SolverOptions how = options(live_only && !edited);
+  bool way_to_go = false;
+  for (const auto& group : groups_) {
+    if (live_only && !edited && !group->live()) continue;
     const Nanoseconds begin = clock.now();
     const Nanoseconds end = begin + deadline_ns;
-    figure.solver->solve(
-        figure.q, figure.goals, options, [&clock, end] { return clock.now() > end; }, figure.pose);
-    figure.solve_ns = clock.now() - begin;
-    last_solve_ns_ = figure.solve_ns;
+    group->solve(how, [&clock, end] { return clock.now() > end; });
+    last_solve_ns_ = clock.now() - begin;
     ++solves_;
-    scene.settle(id, figure.q);
+    way_to_go = way_to_go || (live_only && group->moved() > kStillMoves);
+    for (std::size_t i = 0; i < group->ids().size(); ++i) {
+      scene.settle(group->ids()[i], group->q(i));
+      figures_.find(group->ids()[i])->second.solve_ns = last_solve_ns_;
+    }
   }
+  return way_to_go;
 }
 
 proto::FigurePose Solving::message(const std::string& id) const {
-  const SolvedFigure& figure = figures_.at(id);
-  proto::FigurePose message;
-  message.figure = id;
-  message.world_from_segment = figure.pose.world_from_segment;
-  message.q = figure.pose.q;
-  message.cost = figure.pose.report.cost;
-  message.status = figure.pose.report.status;
-  message.branch_changed = figure.pose.report.branch_changed;
-  message.goals.reserve(figure.pose.goals.size());
-  for (std::size_t i = 0; i < figure.pose.goals.size(); ++i) {
-    const GoalReport& report = figure.pose.goals[i];
-    proto::GoalFrame& goal = message.goals.emplace_back();
-    goal.id = figure.sources[i]->goal.id;
-    goal.touch = report.touch;
-    goal.target = report.target;
-    goal.error = report.error;
-    goal.force = report.force;
-    goal.state = report.state;
-    for (const Cause& cause : report.causes) {
-      if (cause.kind == Cause::Kind::goal) {
-        goal.causes.push_back({figure.sources[static_cast<std::size_t>(cause.goal)]->goal.id, 0.0, "", {}});
-      } else if (cause.kind == Cause::Kind::limit) {
-        goal.causes.push_back({"", 0.0, figure.solver->tree().joint(cause.joint).name, cause.side});
-      } else {
-        goal.causes.push_back({"", cause.beyond_m, "", {}});
-      }
-    }
-  }
-  return message;
+  const Solved& solved = figures_.at(id);
+  return solved.group->message(solved.index);
 }
 
 }  // namespace posed

@@ -1,42 +1,35 @@
-// Poses of all figures: keeps a solver for each, and calls it where goals have moved. Station loop only.
+// Poses of all figures of the scene: keeps a solver for each, or for those together that goals tie together, and calls
+// it where goals have moved. Station loop only.
 #pragma once
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "common/pose.h"
 #include "common/time.h"
-#include "proto/messages.h"
-#include "server/scene/scene.h"
-#include "server/solver/reach_tree_solver.h"
+#include "server/daemon/figure_group.h"
 
 namespace posed {
 
-// The method `springs` is refused while this is false.
-inline constexpr bool kSpringsAvailable = false;
-
-struct SolvedFigure {
-  std::unique_ptr<ReachTreeSolver> solver;
-  std::vector<const SceneGoal*> sources;  // in the order of pose.goals
-  std::vector<ReachGoal> goals;
-  std::vector<std::string> notes;  // what the method makes of the figure and does not do
-  std::vector<double> q;
-  Pose pose;
-  Nanoseconds solve_ns = 0;
-};
-
 class Solving {
  public:
-  std::string method = "reach_tree";
-  ReachTreeOptions options;
+  Method method = Method::springs;
+  int iterations = SpringOptions{}.iterations;  // of each method: passes at the root, steps of a descent
+  int branch_iterations = ReachTreeOptions{}.branch_iterations;
   Nanoseconds deadline_ns = 20'000'000;
 
   // Solves every figure from its present q, or those only that a live goal pulls at, and hands q back to the scene.
-  void solve(Scene& scene, bool live_only, const Clock& clock);
+  // True where a bound on the joints' speed may have left live goals a way to go.
+  bool solve(Scene& scene, bool live_only, const Clock& clock);
 
-  const std::map<std::string, SolvedFigure>& figures() const { return figures_; }
+  struct Solved {
+    const FigureGroup* group;
+    std::size_t index;  // in the group
+    Nanoseconds solve_ns;
+  };
+  const std::map<std::string, Solved>& figures() const { return figures_; }
   Revision revision() const { return revision_; }  // of the scene that the poses answer
   std::uint64_t solves() const { return solves_; }
   Nanoseconds last_solve_ns() const { return last_solve_ns_; }
@@ -46,8 +39,12 @@ class Solving {
 
  private:
   void gather(const Scene& scene);
+  std::unique_ptr<FigureGroup> make_group(const std::vector<const SceneFigure*>& figures);
+  SolverOptions options(bool live_only) const;
 
-  std::map<std::string, SolvedFigure> figures_;
+  std::vector<std::unique_ptr<FigureGroup>> groups_;
+  std::map<std::string, Solved> figures_;
+  std::optional<Method> gathered_;
   Revision revision_ = 0;
   std::uint64_t solves_ = 0;
   Nanoseconds last_solve_ns_ = 0;

@@ -71,8 +71,12 @@ void Connection::reply(const SharedLine& line) {
   if (!line || (parting_ && !parting_->waits)) return;
   add(hub_.tally.replies);
   expected_reply_ = std::max(line->size(), expected_reply_ - expected_reply_ / 8);
-  if (outbox_.reply_bytes() > kBurstBytes) pump();
+  if (outbox_.reply_bytes() + line->size() > kBurstBytes) pump();
   if (!closed_ && !outbox_.reply(line)) overflow();
+}
+
+void Connection::notify(const SharedLine& line) {
+  if (!closed_ && !parting_ && idle()) outbox_.send(line, outbox_.framing());
 }
 
 void Connection::subscribe(const Subscription& subscription, SharedLine present, std::uint64_t seq) {

@@ -27,6 +27,7 @@ class Connection final : public Link, public std::enable_shared_from_this<Connec
   void start();
   // These only queue: call update() when all that is known was said.
   void reply(const SharedLine& line);
+  void notify(const SharedLine& line);
   void subscribe(const Subscription& subscription, SharedLine present, std::uint64_t seq);
   void unsubscribe(proto::Stream stream);
   // Puts a frame into the outbox; with `send` also on the wire, if it may go.

@@ -34,7 +34,8 @@ void Outbox::queue(SharedLine bytes, Framing framing, bool frame) {
 }
 
 bool Outbox::reply(SharedLine line) {
-  if (replies() >= max_replies_ || reply_bytes_ + line->size() > max_reply_bytes_) return false;
+  // A single one may be larger than the cap: whoever made it has bounded it.
+  if (replies() >= max_replies_ || (replies() > 0 && reply_bytes_ + line->size() > max_reply_bytes_)) return false;
   queue(std::move(line), framing_, false);
   return true;
 }

@@ -34,7 +34,7 @@ class Outbox {
   void set_framing(Framing framing) { framing_ = framing; }
   Framing framing() const { return framing_; }
 
-  // False if the cap is reached: the line was not taken.
+  // False if the cap is reached: the line was not taken. A line that would be the only one always is.
   [[nodiscard]] bool reply(SharedLine line);
   // Bytes with their framing, in order with the replies and outside the cap.
   void send(SharedLine bytes, Framing framing) { queue(std::move(bytes), framing, false); }

@@ -26,6 +26,10 @@ struct Reply {
   ConnectionId connection;
   SharedLine line;
 };
+struct Notify {
+  ConnectionId connection;
+  SharedLine line;
+};
 struct Subscribe {
   ConnectionId connection;
   Subscription subscription;
@@ -47,7 +51,7 @@ struct SetPage {
   SharedLine body;
 };
 struct Stop {};
-using Command = std::variant<Reply, Subscribe, Unsubscribe, Publish, SetPage, Stop>;
+using Command = std::variant<Reply, Notify, Subscribe, Unsubscribe, Publish, SetPage, Stop>;
 
 void raise_descriptor_limit() {
   rlimit limit{};
@@ -97,6 +101,12 @@ struct Server::Impl {
     Connection* const connection = find(c.connection);
     if (!connection) return;
     connection->reply(c.line);
+    update_later(*connection);
+  }
+  void take(Notify& c) {
+    Connection* const connection = find(c.connection);
+    if (!connection) return;
+    connection->notify(c.line);
     update_later(*connection);
   }
   void take(Subscribe& c) {
@@ -183,6 +193,10 @@ void Server::stop() {
 
 void Server::reply(ConnectionId connection, SharedLine line) {
   impl_->post(Reply{connection, std::move(line)});
+}
+
+void Server::notify(ConnectionId connection, SharedLine line) {
+  impl_->post(Notify{connection, std::move(line)});
 }
 
 void Server::subscribe(ConnectionId connection, Subscription subscription, SharedLine present, std::uint64_t seq) {

@@ -67,6 +67,8 @@ class Server {
 
   // From any thread; done in the order of the calls. A connection that is gone is no error.
   void reply(ConnectionId connection, SharedLine line);  // null: this line is answered with nothing
+  // What a request has asked to be told on the way to its reply. Left out where something else waits to be sent.
+  void notify(ConnectionId connection, SharedLine line);
   // `present` (may be null) is the first frame. Call it after the reply that grants it.
   void subscribe(ConnectionId connection, Subscription subscription, SharedLine present, std::uint64_t seq);
   void unsubscribe(ConnectionId connection, proto::Stream stream);

@@ -1,3 +1,5 @@
+#include <utility>
+
 #include "server/scene/errors.h"
 #include "server/scene/goal_resolve.h"
 #include "server/scene/scene.h"
@@ -38,6 +40,19 @@ Status Scene::complete_pins(SceneFigure& figure) {
   }
   figure.entry.pins = std::move(pins);
   return Ok{};
+}
+
+Result<Edited> Scene::set_pins(const std::string& id, std::map<std::string, Pin> pins, IfRevision if_revision) {
+  const Result<const SceneFigure*> found = find_figure(id);
+  if (!found) return found.error();
+  SceneFigure& figure = figures_.at((*found)->entry.id);
+  if (const auto error = stale(figures_, figure.entry.id, if_revision)) return *error;
+  std::map<std::string, Pin> before = std::exchange(figure.entry.pins, std::move(pins));
+  if (const Status complete = complete_pins(figure); !complete) {
+    figure.entry.pins = std::move(before);
+    return complete.error();
+  }
+  return Edited{figure.entry.id, ++revision_, ++figure.revision};
 }
 
 Result<Edited> Scene::pin(const std::string& id, const std::string& segment, std::optional<Pin::Hold> hold,

@@ -5,6 +5,11 @@
 
 namespace posed {
 
+Scene::Scene(SceneFigure figure) {
+  std::string id = figure.entry.id;
+  figures_.emplace(std::move(id), std::move(figure));
+}
+
 SceneDocument Scene::document() const {
   SceneDocument document;
   for (const auto& [id, figure] : figures_) {

@@ -69,6 +69,10 @@ struct SceneBinding {
 
 class Scene {
  public:
+  Scene() = default;
+  // Of one figure, which is taken as it is.
+  explicit Scene(SceneFigure figure);
+
   Revision revision() const { return revision_; }
   const std::map<std::string, SceneFigure>& figures() const { return figures_; }
   const std::map<std::string, SceneGoal>& goals() const { return goals_; }
@@ -95,6 +99,9 @@ class Scene {
   // Holds the segment where it is now, or lets it go.
   Result<Edited> pin(const std::string& figure, const std::string& segment, std::optional<Pin::Hold> hold,
                      IfRevision if_revision);
+
+  // Exactly these pins; where one leaves its place out, the segment is held where it is.
+  Result<Edited> set_pins(const std::string& figure, std::map<std::string, Pin> pins, IfRevision if_revision);
 
   // A sensor's motion: moves what is bound to it or relative to it. No edit, no revision. True where a target moved.
   // Does not allocate.

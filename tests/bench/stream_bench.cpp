@@ -133,7 +133,7 @@ void measure(test::BenchOutput& out, int count, double seconds) {
   std::printf("%8d %8.0f %10.0f %8.2f%% %9.0f %9.0f %9.0f %10zu %14.2f\n", count, kRate, delivered / seconds,
               100.0 * delivered / due, quantile(0.5), quantile(0.99), quantile(0.999), bytes, 1e6 * cpu / delivered);
   out.row(
-      R"({"bench":"stream","case":"tcp %d x 240 Hz","who":"posed/reach_tree","viewers":%d,"rate_hz":240,"delivered_per_s":%.0f,"ok":%.4f,"median_us":%.1f,"p99_us":%.1f,"p999_us":%.1f,"frame_bytes":%zu,"cpu_us_per_frame_both_ends":%.2f})",
+      R"({"bench":"stream","case":"tcp %d x 240 Hz","who":"posed/springs","viewers":%d,"rate_hz":240,"delivered_per_s":%.0f,"ok":%.4f,"median_us":%.1f,"p99_us":%.1f,"p999_us":%.1f,"frame_bytes":%zu,"cpu_us_per_frame_both_ends":%.2f})",
       count, count, delivered / seconds, delivered / due, quantile(0.5), quantile(0.99), quantile(0.999), bytes,
       1e6 * cpu / delivered);
 }

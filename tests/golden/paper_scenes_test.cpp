@@ -57,9 +57,9 @@ void expect_balanced(const Solved& s, const std::string& what) {
   EXPECT_TRUE(test::all_finite(s.pose)) << what;
 }
 
-const char* const kScenes[] = {"standing",          "empty",           "paper/single-reach", "paper/two-reaches",
-                               "paper/unreachable", "paper/sitting",   "paper/restrained",   "paper/seat-belt",
-                               "paper/two-hands",   "paper/straighten"};
+const char* const kScenes[] = {"empty",           "paper/single-reach", "paper/two-reaches", "paper/unreachable",
+                               "paper/sitting",   "paper/restrained",   "paper/seat-belt",   "paper/two-hands",
+                               "paper/straighten"};
 
 class Scene : public testing::TestWithParam<const char*> {};
 
@@ -185,31 +185,6 @@ TEST(PaperScenes, PulledAnklesStraightenTheBody) {
   }
   const Vec3 trunk = s.touch("upper_torso") - s.segment("lower_torso").position;
   EXPECT_GT(trunk.z, 0.999 * glm::length(trunk));
-}
-
-TEST(Templates, StandingStandsStill) {
-  const Solved s("standing");
-  EXPECT_EQ(s.pose.q, s.scene.start);
-  EXPECT_EQ(s.pose.report.iterations, 0);
-}
-
-TEST(Templates, StandingKeepsItsFeetWhenItIsPulledAbout) {
-  Solved s("standing");
-  s.scene.goal("pelvis").target += Vec3(0.05, 0.0, -0.25);
-  s.solve();
-  for (const char* id : {"left_ankle", "left_toe", "right_ankle", "right_toe"}) EXPECT_LT(s[id].error, 0.01) << id;
-  EXPECT_LT(s["pelvis"].error, 0.02);
-  EXPECT_GT(s.touch("left_upper_leg").x, 0.1);  // knees bend forward
-}
-
-TEST(Templates, StandingReaches) {
-  Solved s("standing");
-  const AttachedPoint palm = s.scene.tree->attach({"right_hand", {}, ""}).value();
-  s.scene.ids.push_back("palm");
-  s.scene.goals.push_back({palm.segment, palm.point, {0.5, -0.3, 1.2}, 10.0, 0.0, true});
-  s.solve();
-  EXPECT_EQ(s["palm"].state, GoalState::reached);
-  EXPECT_EQ(s["left_ankle"].state, GoalState::reached);
 }
 
 }  // namespace

@@ -134,14 +134,12 @@ TEST(Daemon, ASensorBoundToAGoalMovesTheFigureWithNoClientBetween) {
   EXPECT_GT(way, 0.01);
 }
 
-TEST(Daemon, SpringsAndWhatElseIsReservedAreRefusedNotAliased) {
+TEST(Daemon, WhatIsReservedIsRefusedNotAliased) {
   const RunningDaemon daemon;
   auto client = daemon.connect();
   const std::pair<const char*, const char*> reserved[] = {
-      {"solver.set", R"({"method":"springs"})"},
       {"goal.set", R"({"at":"head","position":[0,0,1],"relative_to":{"object":"chair"}})"},
       {"binding.set", R"({"sensor":"simulated:1","to":{"camera":"main"}})"},
-      {"solve", "{}"},
       {"edit.undo", "{}"},
       {"stream.subscribe", R"({"stream":"pose","encoding":"cbor"})"},
   };
@@ -150,12 +148,32 @@ TEST(Daemon, SpringsAndWhatElseIsReservedAreRefusedNotAliased) {
     ASSERT_FALSE(reply) << method << params;
     EXPECT_EQ(reply.error().code, "not_available") << method << params << reply.error().message;
   }
-  EXPECT_EQ(client.call<proto::SolverResult>(proto::SolverGet{})->method, "reach_tree");
+}
+
+TEST(Daemon, TheMethodIsSpringsUntilAnotherIsChosen) {
+  const RunningDaemon daemon;
+  auto client = daemon.connect();
+  EXPECT_EQ(client.call<proto::SolverResult>(proto::SolverGet{})->method, "springs");
+  const auto hello = client.call<proto::HelloResult>(proto::SessionHello{});
+  EXPECT_EQ(hello->features, (std::vector<std::string>{"springs", "reach_tree", "solve"}));
+  const auto refused = client.call("solver.set", R"({"method":"spring"})");
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().path, "/params/method");
+  EXPECT_EQ(refused.error().hint, "springs or reach_tree");
+  for (const char* method : {"reach_tree", "springs"}) {
+    ASSERT_TRUE(client.call("solver.set", std::string(R"({"method":")") + method + "\"}"));
+    const auto edited = client.call<proto::EditResult>(hand_goal({0.35, -0.25, 1.2}));
+    EXPECT_EQ(pose_at(client, edited->revision).method, method);
+  }
+  ASSERT_TRUE(client.call("solver.set", R"({"method":"reach_tree"})"));
+  EXPECT_EQ(*client.call("solver.set", R"({"method":null})"),
+            R"({"method":"springs","iterations":200,"branch_iterations":1})");
 }
 
 TEST(Daemon, WhatReachTreeDoesNotDoIsKeptAndSaid) {
   const RunningDaemon daemon;
   auto client = daemon.connect();
+  ASSERT_TRUE(client.call("solver.set", R"({"method":"reach_tree"})"));
   ASSERT_TRUE(client.call("goal.set", R"({"at":"head","aim":{"axis":[1,0,0],"point":[1,1,1]}})"));
   ASSERT_TRUE(client.call("goal.set", R"({"balance":{"support":["left_foot","right_foot"]},"priority":1})"));
   ASSERT_TRUE(client.call("goal.set",
@@ -206,16 +224,22 @@ TEST(Daemon, ThePapersScenesBalanceAndKeepBoneLengthsOverTheWire) {
   auto client = daemon.connect();
   const auto scenes = client.call<proto::SceneListResult>(proto::SceneList{});
   ASSERT_TRUE(scenes);
-  int papers = 0;
+  std::vector<std::pair<std::string, std::string>> cases;
   for (const std::string& name : scenes->templates) {
-    SCOPED_TRACE(name);
+    for (const char* method : {"springs", "reach_tree"}) cases.emplace_back(method, name);
+  }
+  int papers = 0;
+  for (const auto& [method, name] : cases) {
+    SCOPED_TRACE(method + " " + name);
+    ASSERT_TRUE(client.call("solver.set", R"({"method":")" + method + "\"}"));
     const auto loaded = client.call<proto::RevisionResult>(proto::SceneNew{name});
     ASSERT_TRUE(loaded) << loaded.error().message;
     const proto::PoseResult pose = pose_at(client, loaded->revision);
+    EXPECT_EQ(pose.method, method);
+    EXPECT_EQ(pose.pose.status, SolveStatus::converged);
     if (name.starts_with("paper/")) {
       ++papers;
       EXPECT_LT(pose.balance_error, 1e-6);
-      EXPECT_EQ(pose.method, "reach_tree");
     }
     const auto figure = client.call<proto::FigureResult>(proto::FigureGet{"body"});
     ASSERT_TRUE(figure);
@@ -228,7 +252,7 @@ TEST(Daemon, ThePapersScenesBalanceAndKeepBoneLengthsOverTheWire) {
       EXPECT_LT(glm::length(joint - world[segment.name].position), 1e-9) << segment.name << " came off its joint";
     }
   }
-  EXPECT_EQ(papers, 8);
+  EXPECT_EQ(papers, 2 * 8);
 }
 
 TEST(Daemon, SavedScenesComeBackWithTheirPose) {

@@ -47,6 +47,8 @@ const std::map<std::string, SayAnew> kResults{{"session.hello", said_anew<HelloR
                                               {"pose.mirror", said_anew<EditResult>},
                                               {"solver.get", said_anew<SolverResult>},
                                               {"solver.set", said_anew<SolverResult>},
+                                              {"solve", said_anew<SolveResult>},
+                                              {"solve.batch", said_anew<SolveBatchResult>},
                                               {"scene.get", said_anew<SceneResult>},
                                               {"scene.new", said_anew<RevisionResult>},
                                               {"scene.list", said_anew<SceneListResult>},
@@ -140,6 +142,10 @@ TEST(Examples, NoticesAreWhatTheDaemonSays) {
       return encode_scene_patch(in->seq, data.at("from_revision"), data.at("revision"),
                                 data.at("by").get<std::string>(), data.at("patch").dump());
     }
+    if (name == "solve.progress") {
+      const auto& params = examples().at(name).at("notice").at("params");
+      return encode_progress(params.at("id").dump(), in->done, in->of);
+    }
     return encode_lost(*in->stream, in->dropped);
   };
   int notices = 0;
@@ -151,7 +157,7 @@ TEST(Examples, NoticesAreWhatTheDaemonSays) {
     EXPECT_EQ(json::parse(line), json::parse(example.at("notice").dump()));
     ++notices;
   }
-  EXPECT_EQ(notices, 6);
+  EXPECT_EQ(notices, 7);
 }
 
 TEST(Examples, ThePatchFitsTheSnapshot) {

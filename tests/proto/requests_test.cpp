@@ -36,6 +36,19 @@ std::vector<Params> full_messages() {
   binding.user = std::string("7");
   FigureSet figure{"body", Patched<std::string>::reset(), 1.8, *tempus(1.8), std::string("Ana"), std::string("[]")};
   SolverSet solver{std::string("reach_tree"), 400, Patched<int>::reset()};
+  Solve solve;
+  solve.figure = FigureChoice{"", "tempus", 1.6, {}};
+  solve.goals = {{goal}, {pose}};
+  solve.pins.emplace()["left_foot"] = Pin{Pin::Hold::position, Vec3(0, 0.1, 0), {}};
+  solve.start = Start{Start::Kind::q, {1.0 / 3.0, 2, 3}};
+  solve.deadline_us = 500;
+  solve.method = "reach_tree";
+  solve.fields = {"q"};
+  SolveBatch batch;
+  batch.figure = FigureChoice{"", "", 1.75, *tempus(1.8)};
+  batch.start = Start{Start::Kind::current, {}};
+  batch.problems = {{solve, {}, ""}, {{}, Error{"missing_field", "", "", ""}, R"({"goal":[]})"}};
+  batch.progress = true;
   return {SessionHello{1, {"posectl", "0.1.0"}, "ana"},
           figure,
           FigureGet{"body"},
@@ -56,6 +69,8 @@ std::vector<Params> full_messages() {
           PoseReset{"body", "start"},
           PoseMirror{"body"},
           solver,
+          solve,
+          batch,
           SceneNew{"empty"},
           SceneSave{"monday"},
           SceneOpen{"monday"},
@@ -77,7 +92,7 @@ void expect_round_trip(const Params& message) {
 
 TEST(Requests, EveryMethodComesThrough) {
   const std::vector<Params> messages = every_message();
-  ASSERT_EQ(messages.size(), 35u);
+  ASSERT_EQ(messages.size(), 37u);
   for (const Params& message : messages) expect_round_trip(message);
 }
 

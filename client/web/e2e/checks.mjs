@@ -172,6 +172,7 @@ async function binds(page) {
 
 /** Another client takes the goal away while the hand is on its cube. */
 async function showsRefusal(page) {
+  await beginsScene(page); // the arm hangs down again, where the hand is in sight
   await makesGoal(page);
   const { target } = (await state(page)).goals[kGoal];
   const from = await project(page, "front", target);

@@ -16,6 +16,7 @@ describe("words", () => {
     expect(causesText([{ goal: "g2" }, { beyond_m: 0.12 }])).toBe("held by g2 · 120 mm beyond reach");
     expect(causesText([{ goal: "left_knee" }, { goal: "body.right_hand.position" }])).toBe("held by left knee, right hand");
     expect(causesText([{ limit: "right_elbow", side: "max" }, { goal: "g2" }])).toBe("held by g2 · limited by right elbow (max)");
+    expect(causesText([{ pin: "left_foot" }, { goal: "g2" }])).toBe("held by the pin of left foot, g2");
     expect(causesText(undefined)).toBe("");
     expect([costText(3.08e-31), costText(0.01234), costText(4.5)]).toEqual(["0", "0.0123", "4.5"]);
   });

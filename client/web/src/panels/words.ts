@@ -16,7 +16,9 @@ export function errorText(metres: number): string {
 }
 
 export function causesText(causes: GoalPose["causes"]): string {
-  const holders = (causes ?? []).flatMap(({ goal }) => (goal === undefined ? [] : [goalName(goal)]));
+  const holders = (causes ?? []).flatMap(({ goal, pin }) =>
+    goal !== undefined ? [goalName(goal)] : pin !== undefined ? [`the pin of ${plain(pin)}`] : [],
+  );
   const beyond = (causes ?? []).flatMap(({ beyond_m }) => (beyond_m === undefined ? [] : [`${errorText(beyond_m)} beyond reach`]));
   const limits = (causes ?? []).flatMap(({ limit, side }) => (limit === undefined ? [] : [`${plain(limit)}${side ? ` (${side})` : ""}`]));
   const limited = limits.length > 0 ? [`limited by ${limits.join(", ")}`] : [];

@@ -83,7 +83,7 @@ export interface GoalPose {
   target: Vec3;
   error: number;
   state: GoalState;
-  causes?: Array<{ goal?: string; beyond_m?: number; limit?: string; side?: string }>;
+  causes?: Array<{ goal?: string; beyond_m?: number; limit?: string; side?: string; pin?: string; figure?: string }>;
 }
 
 export interface PoseFrame {
