@@ -54,7 +54,7 @@ LIBRARIES = {
     "sqlite": (r"sqlite3\.h", r"PkgConfig::SQLITE"),
     "openssl": (r"openssl/", r"OpenSSL::.*"),
     "cli11": (r"CLI/", r"CLI11::.*"),
-    "highway": (r"hwy/", r"hwy::.*"),
+    "highway": (r"hwy/", r"PkgConfig::HWY"),
     "eigen": (r"Eigen/", r"Eigen3::.*"),
 }
 EVERYWHERE = {"glm"}

@@ -6,7 +6,7 @@
 #define HWY_TARGET_INCLUDE "server/solver/springs/kernel.cpp"
 // Three are enough for x86-64: what all have, AVX2 and AVX-512.
 #define HWY_DISABLED_TARGETS (HWY_AVX3_DL | HWY_SSE4)
-#include "hwy/foreach_target.h"  // must come before highway.h
+#include <hwy/foreach_target.h>  // must come before highway.h
 #include "server/solver/springs/descent-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -10,8 +10,8 @@
 #include <cmath>
 #include <cstddef>
 
-#include "hwy/contrib/math/math-inl.h"
-#include "hwy/highway.h"
+#include <hwy/contrib/math/math-inl.h>
+#include <hwy/highway.h>
 
 // Loops over the rows of small matrices, which are registers once they are written out.
 #ifndef POSED_UNROLL

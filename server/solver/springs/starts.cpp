@@ -9,7 +9,7 @@
 namespace posed::springs {
 namespace {
 
-constexpr double kInner = 0.25;     // share of a range that starts are spread over
+constexpr double kInner = 0.6;      // share of a range that starts are spread over
 constexpr double kFreeRange = 1.0;  // rad or m to either side, where there is no limit
 constexpr double kStraight = 0.02;  // rad
 
