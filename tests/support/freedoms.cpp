@@ -1,0 +1,203 @@
+#include "tests/support/freedoms.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tests/support/figures.h"
+
+namespace posed::test {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+std::span<double> share_of(const BodyTree& tree, std::vector<double>& q, int joint) {
+  return std::span(q).subspan(static_cast<std::size_t>(tree.q_at(joint)),
+                              static_cast<std::size_t>(q_size(tree.joint(joint).type)));
+}
+
+Quat quat_of(const BodyTree& tree, std::span<const double> q, int joint) {
+  return quat_from_xyzw(q.subspan(static_cast<std::size_t>(tree.q_at(joint)), 4));
+}
+
+void put(const Quat& r, std::span<double> to) {
+  const auto v = xyzw(glm::normalize(same_sign(quat_from_xyzw(to), r)));
+  std::copy(v.begin(), v.end(), to.begin());
+}
+
+// The limb's direction at rest.
+Vec3 rest_of(const Segment& segment) {
+  return glm::length(segment.touch_point) > 0.0 ? glm::normalize(segment.touch_point) : kZ;
+}
+
+double turn_about(const Quat& r, const Vec3& axis) {
+  return std::remainder(2.0 * std::atan2(glm::dot(Vec3(r.x, r.y, r.z), axis), r.w), 2.0 * M_PI);
+}
+
+// The angles of R = R0 R1 R2 about perpendicular axes, from the entries of its matrix in their frame.
+std::array<double, 3> angles_of(const Quat& r, const Vec3& a0, const Vec3& a1) {
+  const Vec3 a2 = glm::cross(a0, a1);
+  const auto m = [&](const Vec3& row, const Vec3& column) { return glm::dot(row, r * column); };
+  const double s = std::clamp(m(a0, a2), -1.0, 1.0);
+  if (std::abs(s) > 1.0 - 1e-12) return {std::atan2(m(a2, a1), m(a1, a1)), std::asin(s), 0.0};
+  return {std::atan2(-m(a1, a2), m(a2, a2)), std::asin(s), std::atan2(-m(a0, a1), m(a0, a0))};
+}
+
+Quat composed(const std::array<double, 3>& angles, const Vec3& a0, const Vec3& a1) {
+  return quat_about(a0, angles[0]) * quat_about(a1, angles[1]) * quat_about(glm::cross(a0, a1), angles[2]);
+}
+
+}  // namespace
+
+bool is_limb(const Joint& joint) {
+  return joint.type == JointType::ball && (joint.swing || joint.twist);
+}
+
+LimbPose limb_pose(const BodyTree& tree, std::span<const double> q, int joint) {
+  const Vec3 p = rest_of(tree.segment(joint));
+  const Quat r = quat_of(tree, q, joint);
+  const Vec3 d = r * p, first = perpendicular(d, kX);
+  const Quat twist = glm::conjugate(shortest_arc(p, d, perpendicular(p, kX))) * r;
+  return {p, d, {first, glm::cross(d, first)}, turn_about(twist, p)};
+}
+
+std::vector<double> beyond_swing(const Segment& segment, const Vec3& d) {
+  if (!segment.joint.swing) return {};
+  const Swing& swing = *segment.joint.swing;
+  std::vector<double> out;
+  if (swing.kind == Swing::Kind::ellipse) {
+    const Vec3 c = swing.center == kZero ? rest_of(segment) : swing.center;
+    const Vec3 t0 = perpendicular(c, std::abs(c.x) > 0.999999 ? kY : kX), t1 = glm::cross(c, t0);
+    const double angle = std::atan2(glm::length(glm::cross(c, d)), glm::dot(c, d));
+    const double heading = std::atan2(glm::dot(d, t1), glm::dot(d, t0));
+    const double edge = 1.0 / std::hypot(std::cos(heading) / swing.radii[0], std::sin(heading) / swing.radii[1]);
+    out.push_back(angle - edge);
+  } else {
+    for (std::size_t k = 0; k < swing.corners.size(); ++k) {
+      const Vec3 inward = glm::normalize(glm::cross(swing.corners[k], swing.corners[(k + 1) % swing.corners.size()]));
+      out.push_back(-std::asin(std::clamp(glm::dot(inward, d), -1.0, 1.0)));
+    }
+  }
+  return out;
+}
+
+std::vector<Span> spans(const BodyTree& tree, std::span<const double> q, int i) {
+  const Joint& joint = tree.joint(i);
+  const auto span = [&](double value, std::size_t k) {
+    const auto limit = k < joint.limits.size() ? joint.limits[k] : std::nullopt;
+    return Span{value, limit ? limit->min : -kInfinity, limit ? limit->max : kInfinity};
+  };
+  if (is_limb(joint)) {
+    const Limit twist = joint.twist.value_or(Limit{-kInfinity, kInfinity});
+    return {{limb_pose(tree, q, i).twist, twist.min, twist.max}};
+  }
+  if (q_size(joint.type) == 1) return {span(q[static_cast<std::size_t>(tree.q_at(i))], 0)};
+  if (joint.type == JointType::universal) {
+    const auto a = angles_of(quat_of(tree, q, i), joint.axes[0], joint.axes[1]);
+    return {span(a[0], 0), span(a[1], 1)};
+  }
+  if (joint.type == JointType::ball && !joint.limits.empty()) {
+    const auto a = angles_of(quat_of(tree, q, i), kX, kY);
+    return {span(a[0], 0), span(a[1], 1), span(a[2], 2)};
+  }
+  return {};
+}
+
+double beyond_limits(const BodyTree& tree, std::span<const double> q, int i) {
+  double worst = 0.0;
+  for (const Span& s : spans(tree, q, i)) worst = std::max({worst, s.min - s.value, s.value - s.max});
+  if (is_limb(tree.joint(i))) {
+    for (const double beyond : beyond_swing(tree.segment(i), limb_pose(tree, q, i).direction))
+      worst = std::max(worst, beyond);
+  } else if (tree.joint(i).type == JointType::universal) {
+    const auto a = angles_of(quat_of(tree, q, i), tree.joint(i).axes[0], tree.joint(i).axes[1]);
+    worst = std::max(worst, std::abs(a[2]));
+  }
+  return worst;
+}
+
+double beyond_limits(const BodyTree& tree, std::span<const double> q) {
+  double worst = 0.0;
+  for (int i = 0; i < tree.size(); ++i) worst = std::max(worst, beyond_limits(tree, q, i));
+  return worst;
+}
+
+std::vector<Freedom> freedoms(const BodyTree& tree) {
+  std::vector<Freedom> all;
+  for (int i = 0; i < tree.size(); ++i) {
+    for (int k = 0; k < degrees_of_freedom(tree.joint(i).type); ++k) all.push_back({i, k});
+  }
+  return all;
+}
+
+std::vector<double> moved(const BodyTree& tree, std::vector<double> q, Freedom freedom, double by) {
+  const Joint& joint = tree.joint(freedom.joint);
+  const std::span<double> share = share_of(tree, q, freedom.joint);
+  const auto k = static_cast<std::size_t>(freedom.k);
+  const Vec3 axes[3] = {kX, kY, kZ};
+  if (joint.type == JointType::free) {
+    if (k < 3)
+      share[k] += by;
+    else
+      put(quat_about(axes[k - 3], by) * quat_from_xyzw(share.subspan(3)), share.subspan(3));
+  } else if (is_limb(joint)) {
+    const LimbPose at = limb_pose(tree, q, freedom.joint);
+    const Vec3 d = k < 2 ? at.direction * std::cos(by) + at.across[k] * std::sin(by) : at.direction;
+    put(shortest_arc(at.rest, d, perpendicular(at.rest, kX)) * quat_about(at.rest, at.twist + (k == 2 ? by : 0.0)),
+        share);
+  } else if (joint.type == JointType::universal || (joint.type == JointType::ball && !joint.limits.empty())) {
+    const bool ball = joint.type == JointType::ball;
+    const Vec3 a0 = ball ? kX : joint.axes[0], a1 = ball ? kY : joint.axes[1];
+    auto angles = angles_of(quat_from_xyzw(share), a0, a1);
+    angles[k] += by;
+    put(composed(angles, a0, a1), share);
+  } else if (joint.type == JointType::ball) {
+    put(quat_about(axes[k], by) * quat_from_xyzw(share), share);
+  } else {
+    share[0] += by;
+  }
+  return q;
+}
+
+std::vector<double> random_q(std::mt19937& random, const BodyTree& tree) {
+  std::vector<double> q = tree.rest();
+  const auto within = [&](double min, double max) {
+    return uniform(random, std::isfinite(min) ? min : -M_PI, std::isfinite(max) ? max : M_PI);
+  };
+  for (int i = 0; i < tree.size(); ++i) {
+    const Joint& joint = tree.joint(i);
+    const std::span<double> share = share_of(tree, q, i);
+    const auto any = [&] {
+      const Vec3 v = random_point(random, 1.0);
+      return glm::normalize(Quat(uniform(random, -1.0, 1.0), v.x, v.y, v.z));
+    };
+    const auto s = spans(tree, tree.rest(), i);
+    if (joint.type == JointType::free) {
+      const Vec3 place = random_point(random, 1.0);
+      share[0] = place.x, share[1] = place.y, share[2] = place.z;
+      put(any(), share.subspan(3));
+    } else if (is_limb(joint)) {
+      const Vec3 p = rest_of(tree.segment(i));
+      Vec3 d = p;
+      for (int n = 0; n < 10'000; ++n) {
+        d = glm::normalize(random_point(random, 1.0));
+        const auto beyond = beyond_swing(tree.segment(i), d);
+        if (std::all_of(beyond.begin(), beyond.end(), [](double b) { return b <= 0.0; })) break;
+      }
+      put(shortest_arc(p, d, perpendicular(p, kX)) * quat_about(p, within(s[0].min, s[0].max)), share);
+    } else if (joint.type == JointType::universal) {
+      put(composed({within(s[0].min, s[0].max), within(s[1].min, s[1].max), 0.0}, joint.axes[0], joint.axes[1]), share);
+    } else if (joint.type == JointType::ball && !joint.limits.empty()) {
+      const double y =
+          uniform(random, std::max(s[1].min, -0.5 * M_PI), std::min(s[1].max, 0.5 * M_PI));  // else it is another's
+      put(composed({within(s[0].min, s[0].max), y, within(s[2].min, s[2].max)}, kX, kY), share);
+    } else if (joint.type == JointType::ball) {
+      put(any(), share);
+    } else if (!share.empty()) {
+      share[0] = within(s[0].min, s[0].max);
+    }
+  }
+  return q;
+}
+
+}  // namespace posed::test
