@@ -43,6 +43,29 @@ std::array<double, 3> angles_of(const Quat& r, const Vec3& a0, const Vec3& a1) {
   return {std::atan2(-m(a1, a2), m(a2, a2)), std::asin(s), std::atan2(-m(a0, a1), m(a0, a0))};
 }
 
+std::array<double, 3> the_other(const std::array<double, 3>& a) {
+  return {a[0] + M_PI, M_PI - a[1], a[2] + M_PI};
+}
+
+// The third is what leads off the two axes.
+std::array<double, 3> universal_angles(const Quat& r, const Joint& joint) {
+  const auto a = angles_of(r, joint.axes[0], joint.axes[1]), b = the_other(a);
+  const double off_a = std::remainder(a[2], 2.0 * M_PI), off_b = std::remainder(b[2], 2.0 * M_PI);
+  return std::abs(off_a) <= std::abs(off_b) ? std::array{a[0], a[1], off_a} : std::array{b[0], b[1], off_b};
+}
+
+// An angle is as good with whole turns more or less.
+double nearest(double angle, const Limit& limit) {
+  const double middle = 0.5 * (limit.min + limit.max);
+  return middle + std::remainder(angle - middle, 2.0 * M_PI);
+}
+
+double beyond(const std::vector<Span>& spans) {
+  double worst = 0.0;
+  for (const Span& s : spans) worst = std::max({worst, s.min - s.value, s.value - s.max});
+  return worst;
+}
+
 Quat composed(const std::array<double, 3>& angles, const Vec3& a0, const Vec3& a1) {
   return quat_about(a0, angles[0]) * quat_about(a1, angles[1]) * quat_about(glm::cross(a0, a1), angles[2]);
 }
@@ -85,6 +108,7 @@ std::vector<Span> spans(const BodyTree& tree, std::span<const double> q, int i) 
   const Joint& joint = tree.joint(i);
   const auto span = [&](double value, std::size_t k) {
     const auto limit = k < joint.limits.size() ? joint.limits[k] : std::nullopt;
+    if (limit && q_size(joint.type) == 4) value = nearest(value, *limit);
     return Span{value, limit ? limit->min : -kInfinity, limit ? limit->max : kInfinity};
   };
   if (is_limb(joint)) {
@@ -93,25 +117,28 @@ std::vector<Span> spans(const BodyTree& tree, std::span<const double> q, int i) 
   }
   if (q_size(joint.type) == 1) return {span(q[static_cast<std::size_t>(tree.q_at(i))], 0)};
   if (joint.type == JointType::universal) {
-    const auto a = angles_of(quat_of(tree, q, i), joint.axes[0], joint.axes[1]);
+    const auto a = universal_angles(quat_of(tree, q, i), joint);
     return {span(a[0], 0), span(a[1], 1)};
   }
   if (joint.type == JointType::ball && !joint.limits.empty()) {
-    const auto a = angles_of(quat_of(tree, q, i), kX, kY);
-    return {span(a[0], 0), span(a[1], 1), span(a[2], 2)};
+    // One turn has two sets of angles, each of them good for any whole turns.
+    const auto a = angles_of(quat_of(tree, q, i), kX, kY), b = the_other(a);
+    const auto of = [&](const std::array<double, 3>& angles) {
+      return std::vector<Span>{span(angles[0], 0), span(angles[1], 1), span(angles[2], 2)};
+    };
+    return beyond(of(a)) <= beyond(of(b)) ? of(a) : of(b);
   }
   return {};
 }
 
 double beyond_limits(const BodyTree& tree, std::span<const double> q, int i) {
   double worst = 0.0;
-  for (const Span& s : spans(tree, q, i)) worst = std::max({worst, s.min - s.value, s.value - s.max});
+  worst = std::max(worst, beyond(spans(tree, q, i)));
   if (is_limb(tree.joint(i))) {
     for (const double beyond : beyond_swing(tree.segment(i), limb_pose(tree, q, i).direction))
       worst = std::max(worst, beyond);
   } else if (tree.joint(i).type == JointType::universal) {
-    const auto a = angles_of(quat_of(tree, q, i), tree.joint(i).axes[0], tree.joint(i).axes[1]);
-    worst = std::max(worst, std::abs(a[2]));
+    worst = std::max(worst, std::abs(universal_angles(quat_of(tree, q, i), tree.joint(i))[2]));
   }
   return worst;
 }
@@ -148,7 +175,9 @@ std::vector<double> moved(const BodyTree& tree, std::vector<double> q, Freedom f
   } else if (joint.type == JointType::universal || (joint.type == JointType::ball && !joint.limits.empty())) {
     const bool ball = joint.type == JointType::ball;
     const Vec3 a0 = ball ? kX : joint.axes[0], a1 = ball ? kY : joint.axes[1];
-    auto angles = angles_of(quat_from_xyzw(share), a0, a1);
+    auto angles = ball ? angles_of(quat_from_xyzw(share), a0, a1) : universal_angles(quat_from_xyzw(share), joint);
+    const auto told = spans(tree, q, freedom.joint);
+    for (std::size_t n = 0; n < told.size(); ++n) angles[n] = told[n].value;
     angles[k] += by;
     put(composed(angles, a0, a1), share);
   } else if (joint.type == JointType::ball) {
@@ -186,11 +215,11 @@ std::vector<double> random_q(std::mt19937& random, const BodyTree& tree) {
       }
       put(shortest_arc(p, d, perpendicular(p, kX)) * quat_about(p, within(s[0].min, s[0].max)), share);
     } else if (joint.type == JointType::universal) {
-      put(composed({within(s[0].min, s[0].max), within(s[1].min, s[1].max), 0.0}, joint.axes[0], joint.axes[1]), share);
+      const double first = within(s[0].min, s[0].max);
+      put(composed({first, within(s[1].min, s[1].max), 0.0}, joint.axes[0], joint.axes[1]), share);
     } else if (joint.type == JointType::ball && !joint.limits.empty()) {
-      const double y =
-          uniform(random, std::max(s[1].min, -0.5 * M_PI), std::min(s[1].max, 0.5 * M_PI));  // else it is another's
-      put(composed({within(s[0].min, s[0].max), y, within(s[2].min, s[2].max)}, kX, kY), share);
+      const double x = within(s[0].min, s[0].max), y = within(s[1].min, s[1].max);
+      put(composed({x, y, within(s[2].min, s[2].max)}, kX, kY), share);
     } else if (joint.type == JointType::ball) {
       put(any(), share);
     } else if (!share.empty()) {
