@@ -1,6 +1,7 @@
 #include "server/solver/springs/plan_builder.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -94,6 +95,39 @@ void set_limb(const Segment& segment, Link& link) {
   if (link.swing.center == kZero) link.swing.center = link.limb;
 }
 
+// A turn that is out by whole turns is brought home.
+double home(const Dof& dof, double turn) {
+  const bool turns = dof.kind != DofKind::along_axis && dof.kind != DofKind::of_root;
+  if (!turns || !std::isfinite(dof.min) || !std::isfinite(dof.max) || (turn >= dof.min && turn <= dof.max)) return turn;
+  return turn - 2.0 * M_PI * std::round((turn - 0.5 * (dof.min + dof.max)) / (2.0 * M_PI));
+}
+
+// The angles of R = Rx Ry Rz. Where y is a quarter turn, x and z are about one axis, and z takes all.
+std::array<double, 3> box_angles(const Quat& r) {
+  const Vec3 z = r * kZ;
+  const double across = std::hypot(z.y, z.z);
+  const double x = across > 1e-9 ? std::atan2(-z.y, z.z) : 0.0, y = std::atan2(z.x, across);
+  const Quat left = glm::conjugate(quat_about(kX, x) * quat_about(kY, y)) * r;
+  return {x, y, 2.0 * std::atan2(left.z, left.w)};
+}
+
+// Of the two ways to tell one turn the one that is inside the limits, or less far out.
+void read_box(const Quat& r, const Dof* dofs, double* turns) {
+  const auto a = box_angles(r);
+  const double two[2][3] = {{a[0], a[1], a[2]}, {a[0] + M_PI, M_PI - a[1], a[2] + M_PI}};
+  double least = std::numeric_limits<double>::max();
+  for (const auto& angles : two) {
+    double beyond = 0.0, there[3];
+    for (int k = 0; k < 3; ++k) {
+      there[k] = home(dofs[k], std::remainder(angles[k], 2.0 * M_PI));
+      beyond = std::max({beyond, dofs[k].min - there[k], there[k] - dofs[k].max});
+    }
+    if (beyond >= least) continue;
+    least = beyond;
+    std::copy_n(there, 3, turns);
+  }
+}
+
 Quat swing_of(const Link& link, const Vec3& direction) {
   return shortest_arc(link.limb, direction, perpendicular(link.limb, kX));
 }
@@ -173,14 +207,11 @@ void read_q(const BodyTree& tree, int figure, const Plan& plan, std::span<const 
       more[0] = d.x, more[1] = d.y, more[2] = d.z, more[3] = 0.0;
       turns[0] = turns[1] = 0.0, turns[2] = turn;
     } else if (joint.type == JointType::universal) {
-      turns[0] = angle_about(joint.axes[0], joint.axes[1], rotation() * joint.axes[1]);
-      turns[1] = angle_about(joint.axes[1], glm::conjugate(rotation()) * joint.axes[0], joint.axes[0]);
+      const Dof* dofs = plan.dofs.data() + link.dof;
+      turns[0] = home(dofs[0], angle_about(joint.axes[0], joint.axes[1], rotation() * joint.axes[1]));
+      turns[1] = home(dofs[1], angle_about(joint.axes[1], glm::conjugate(rotation()) * joint.axes[0], joint.axes[0]));
     } else if (joint.type == JointType::ball) {
-      // Rx Ry Rz
-      const Vec3 z = rotation() * kZ, x = glm::conjugate(rotation()) * kX;
-      turns[0] = std::atan2(-z.y, z.z);
-      turns[1] = std::asin(std::clamp(z.x, -1.0, 1.0));
-      turns[2] = std::atan2(-x.y, x.x);
+      read_box(rotation(), plan.dofs.data() + link.dof, turns);
     } else if (link.dofs == 1) {
       turns[0] = share[0];
     }
@@ -220,15 +251,7 @@ void write_q(const BodyTree& tree, int figure, const Plan& plan, const State& st
 void confine(const Plan& plan, State& state) {
   for (const Link& link : plan.links) {
     for (std::size_t j = at(link.dof); j < at(link.dof + link.dofs); ++j) {
-      double& turn = state.turns[j];
-      // A turn that is out by whole turns is brought home first.
-      const Dof& dof = plan.dofs[j];
-      const bool turns = dof.kind != DofKind::along_axis && dof.kind != DofKind::of_root;
-      if (turns && (turn < dof.min || turn > dof.max) && std::isfinite(dof.min) && std::isfinite(dof.max)) {
-        const double middle = 0.5 * (dof.min + dof.max);
-        turn -= 2.0 * M_PI * std::round((turn - middle) / (2.0 * M_PI));
-      }
-      turn = std::clamp(turn, plan.least[j], plan.most[j]);
+      state.turns[j] = std::clamp(home(plan.dofs[j], state.turns[j]), plan.least[j], plan.most[j]);
     }
     if (link.kind != LinkKind::limb) continue;
     double* more = state.more.data() + link.more;
