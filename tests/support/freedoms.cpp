@@ -38,9 +38,9 @@ double turn_about(const Quat& r, const Vec3& axis) {
 std::array<double, 3> angles_of(const Quat& r, const Vec3& a0, const Vec3& a1) {
   const Vec3 a2 = glm::cross(a0, a1);
   const auto m = [&](const Vec3& row, const Vec3& column) { return glm::dot(row, r * column); };
-  const double s = std::clamp(m(a0, a2), -1.0, 1.0);
-  if (std::abs(s) > 1.0 - 1e-12) return {std::atan2(m(a2, a1), m(a1, a1)), std::asin(s), 0.0};
-  return {std::atan2(-m(a1, a2), m(a2, a2)), std::asin(s), std::atan2(-m(a0, a1), m(a0, a0))};
+  const double across = std::hypot(m(a0, a0), m(a0, a1)), y = std::atan2(m(a0, a2), across);
+  if (across < 1e-9) return {std::atan2(m(a2, a1), m(a1, a1)), y, 0.0};
+  return {std::atan2(-m(a1, a2), m(a2, a2)), y, std::atan2(-m(a0, a1), m(a0, a0))};
 }
 
 std::array<double, 3> the_other(const std::array<double, 3>& a) {
@@ -121,12 +121,26 @@ std::vector<Span> spans(const BodyTree& tree, std::span<const double> q, int i) 
     return {span(a[0], 0), span(a[1], 1)};
   }
   if (joint.type == JointType::ball && !joint.limits.empty()) {
-    // One turn has two sets of angles, each of them good for any whole turns.
+    // One turn has two sets of angles, each of them good for any whole turns; on its side it has any number of them.
     const auto a = angles_of(quat_of(tree, q, i), kX, kY), b = the_other(a);
     const auto of = [&](const std::array<double, 3>& angles) {
       return std::vector<Span>{span(angles[0], 0), span(angles[1], 1), span(angles[2], 2)};
     };
-    return beyond(of(a)) <= beyond(of(b)) ? of(a) : of(b);
+    auto best = beyond(of(a)) <= beyond(of(b)) ? of(a) : of(b);
+    const double side = a[1] > 0.0 ? 1.0 : -1.0;
+    const bool on_its_side = std::abs(std::abs(a[1]) - 0.5 * M_PI) < 1e-9;
+    const auto try_first = [&](double x) {
+      const auto there = of({x, a[1], side * (a[0] - x)});
+      if (beyond(there) < beyond(best)) best = there;
+    };
+    for (int n = 0; on_its_side && n < 1000; ++n) try_first(2.0 * M_PI * n / 1000.0 - M_PI);
+    for (const auto& limit : joint.limits) {
+      if (on_its_side && limit) try_first(limit->min), try_first(limit->max);
+    }
+    if (on_its_side && joint.limits[2]) {
+      for (const double z : {joint.limits[2]->min, joint.limits[2]->max}) try_first(a[0] - side * z);
+    }
+    return best;
   }
   return {};
 }

@@ -111,9 +111,14 @@ std::array<double, 3> box_angles(const Quat& r) {
   return {x, y, 2.0 * std::atan2(left.z, left.w)};
 }
 
-// Of the two ways to tell one turn the one that is inside the limits, or less far out.
+// Of the ways to tell one turn the one that is inside the limits, or less far out.
 void read_box(const Quat& r, const Dof* dofs, double* turns) {
-  const auto a = box_angles(r);
+  auto a = box_angles(r);
+  if (std::abs(std::abs(a[1]) - 0.5 * M_PI) < 1e-9) {  // x takes what z may not
+    const double z = home(dofs[2], a[2]), side = a[1] > 0.0 ? 1.0 : -1.0;
+    const double x = std::clamp(side * (z - std::clamp(z, dofs[2].min, dofs[2].max)), dofs[0].min, dofs[0].max);
+    a[0] = x, a[2] = z - side * x;
+  }
   const double two[2][3] = {{a[0], a[1], a[2]}, {a[0] + M_PI, M_PI - a[1], a[2] + M_PI}};
   double least = std::numeric_limits<double>::max();
   for (const auto& angles : two) {

@@ -88,6 +88,25 @@ TEST(PlanBuilder, ABoxedBallOnItsSideKeepsItsTurn) {
   }
 }
 
+// The shoulder of tempus reaches its limit of a quarter turn just there, and x and z are told apart no more.
+TEST(PlanBuilder, ABoxedBallOnItsSideIsReadInsideItsLimits) {
+  Laid laid(test::human());
+  const int shoulder = *laid.tree->find_joint("left_shoulder");
+  std::mt19937 random(36);
+  for (int n = 0; n < 200; ++n) {
+    auto q = laid.tree->rest();
+    const Limit x = *laid.tree->joint(shoulder).limits[0], z = *laid.tree->joint(shoulder).limits[2];
+    const auto v = xyzw(quat_about(kX, test::uniform(random, x.min, x.max)) * quat_about(kY, -M_PI / 2) *
+                        quat_about(kZ, test::uniform(random, z.min, z.max)));
+    std::copy(v.begin(), v.end(), q.begin() + laid.tree->q_at(shoulder));
+    springs::read_q(*laid.tree, 0, laid.plan, q, laid.state);
+    springs::confine(laid.plan, laid.state);
+    auto back = q;
+    springs::write_q(*laid.tree, 0, laid.plan, laid.state, back);
+    EXPECT_LT(distance(*laid.tree, q, back), 1e-7) << n;
+  }
+}
+
 // Rx(0.1) Ry(2.2) Rz(0.3) is Rx(0.1 + pi) Ry(pi - 2.2) Rz(0.3 + pi) too, which these limits do not allow.
 TEST(PlanBuilder, ABoxBeyondAQuarterTurnIsReadInsideItsLimits) {
   FigureDocument d = test::column(2, 0.5);
@@ -157,7 +176,11 @@ TEST(PlanBuilder, ConfinedValuesAreInsideTheirLimits) {
     springs::read_q(*laid.tree, 0, laid.plan, q, laid.state);
     springs::confine(laid.plan, laid.state);
     springs::write_q(*laid.tree, 0, laid.plan, laid.state, q);
-    for (int i = 0; i < laid.tree->size(); ++i) EXPECT_LT(test::beyond_limits(*laid.tree, q, i), 1e-9) << n << " " << i;
+    for (int i = 0; i < laid.tree->size(); ++i) {
+      const auto& swing = laid.tree->joint(i).swing;
+      if (swing && swing->kind == Swing::Kind::polygon) continue;  // Swing.WhatIsInside...
+      EXPECT_LT(test::beyond_limits(*laid.tree, q, i), 1e-9) << n << " " << i;
+    }
   }
 }
 
