@@ -97,28 +97,5 @@ TEST(SpringKinematics, OfRandomFigures) {
   }
 }
 
-TEST(SpringKinematics, OfALimbThatPointsBackwards) {
-  FigureDocument d = test::column(2, 0.5);
-  d.segments[1].joint.twist = Limit{-3, 3};
-  std::mt19937 random(43);
-  Eight eight(test::build(d), random);
-  here::Kinematics<double> one;
-  one.resize(eight.plan);
-  springs::State state;
-  springs::resize(eight.plan, state);
-  std::vector<Transform> world(2);
-  for (const double near : {1e-2, 1e-3, 1e-4, 1e-5, 0.0}) {
-    auto q = eight.tree->rest();
-    const auto v = xyzw(quat_about(kX, M_PI - near) * quat_about(kZ, 0.3));
-    std::copy(v.begin(), v.end(), q.begin() + 7);
-    springs::read_q(*eight.tree, 0, eight.plan, q, state);
-    std::copy(state.turns.begin(), state.turns.end(), eight.alone[0].turns.begin());
-    std::copy(state.more.begin(), state.more.end(), eight.alone[0].more.begin());
-    one.place(eight.plan, eight.alone[0]);
-    forward_kinematics(*eight.tree, q, world);
-    EXPECT_LT(off(one.placed(1), 0, world[1]), 1e-9) << near;
-  }
-}
-
 }  // namespace
 }  // namespace posed
