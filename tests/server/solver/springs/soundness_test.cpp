@@ -54,7 +54,8 @@ void expect_sound(SpringBench& b, int n) {
     EXPECT_LT(test::worst_bone(*b.figures[f], out.world_from_segment[f]), 1e-9 * away) << n;
     for (int i = 0; i < b.figures[f]->size(); ++i)
       EXPECT_LT(test::beyond_limits(*b.figures[f], out.q[f], i), 1e-9)
-          << n << " " << b.figures[f]->segment(i).name << " type " << static_cast<int>(b.figures[f]->joint(i).type);
+          << n << " " << b.figures[f]->segment(i).name << (b.figures[f]->joint(i).swing ? " swing " : " type ")
+          << static_cast<int>(b.figures[f]->joint(i).type);
   }
   for (std::size_t g = 0; g < b.goals.size(); ++g) {
     const GoalReport& r = out.goals[g];
