@@ -3,9 +3,9 @@
 // axes and 8 points, scalar. Gate: at most 5 times; with --quick it is only said.
 //
 // In instructions where the machine lets us count them, else in time. Where it does not, callgrind does:
-//   for only in floor warm; do BENCH_WARM_ONLY=$only valgrind --tool=callgrind \
-//     --toggle-collect='*bench_frames*' build/release/bin/bench_warm --quick 2>&1 | grep -e frames -e Collected; done
-// and Collected is to be divided by the frames printed.
+//   BENCH_WARM_ONLY=warm valgrind --tool=callgrind --toggle-collect='*bench_frames*' build/release/bin/bench_warm
+//   --quick
+// and the same with BENCH_WARM_ONLY=floor: what it Collected is to be divided by the frames printed.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
