@@ -29,7 +29,8 @@ HWY_INLINE void measure_aim(const Term& term, const Placed<T>& segment, const Ba
   // Turning about `normal` would close the angle; `across` completes the frame of the axis.
   const V3<T> c = cross(axis, wanted);
   const T sine = root(dot(c, c)), cosine = dot(axis, wanted);
-  const T angle = T(2.0) * arc_tangent(sine / most(one + cosine, T(1e-300)));
+  const Mask<T> opposite = (sine < T(1e-12)) & (cosine < zero);
+  const T angle = select(opposite, T(M_PI), T(2.0) * arc_tangent(sine / most(one + cosine, T(1e-300))));
   const V3<T> any = segment.rotation * V3<T>(perpendicular(term.axis, kX));
   const V3<T> normal = select(sine > tiny, c * (one / most(sine, tiny)), any);
   const V3<T> across = cross(axis, normal);

@@ -128,7 +128,7 @@ class Descent {
     }
   }
 
-  static HWY_INLINE void keep(const Mask<T>& mask, const std::vector<T>& from, std::vector<T>& to) {
+  static HWY_INLINE void keep(const Mask<T>& mask, const Memory<T>& from, Memory<T>& to) {
     if constexpr (lanes_of<T>() == 1) {
       if (mask) std::copy(from.begin(), from.end(), to.begin());
       return;

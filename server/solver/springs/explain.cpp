@@ -31,6 +31,8 @@ void Explainer::prepare(const Plan& plan, std::size_t goals) {
   total_.resize(dofs_);
   sprung_.resize(dofs_);
   costs_.resize(goals);
+  apart_.resize(goals);
+  bounds_.resize(dofs_);
   pulls_.reserve(goals);
 }
 
@@ -49,6 +51,7 @@ double Explainer::explain(const Plan& plan, std::span<const SpringGoal> goals,
     report.causes.reserve(kMostCauses + 4);
   }
   std::fill(costs_.begin(), costs_.end(), 0.0);
+  std::fill(apart_.begin(), apart_.end(), 0.0);
   std::fill(sprung_.begin(), sprung_.end(), 0.0);
   if (plan.sprung) probe_.pull_springs(plan, state, sprung_);
   for (const Term& term : plan.terms) {
@@ -59,24 +62,31 @@ double Explainer::explain(const Plan& plan, std::span<const SpringGoal> goals,
   for (std::size_t g = 0; g < goals.size(); ++g) {
     const auto* posture = std::get_if<PostureSpring>(&goals[g].spring);
     if (posture && pulls(goals[g]))
-      report_posture(plan, *posture, goals[g], g, link_of_segment[static_cast<std::size_t>(goals[g].figure)], out[g]);
+      report_posture(plan, state, *posture, goals[g], g, link_of_segment[static_cast<std::size_t>(goals[g].figure)],
+                     out[g]);
   }
   double scale = 0.0, most = 0.0;
   for (std::size_t g = 0; g < goals.size(); ++g) {
     for (std::size_t j = 0; j < dofs_; ++j) total_[j] += slope(g)[j];
     scale = std::max(scale, length(slope(g)));
   }
-  for (std::size_t j = 0; j < dofs_; ++j) {
-    if (probe_.held(plan, state, j, total_[j]) == Probe::Bound::none) most = std::max(most, std::abs(total_[j]));
+  for (std::size_t j = 0; j < dofs_; ++j) bounds_[j] = probe_.held(plan, state, j, total_[j]);
+  for (const Link& link : plan.links) {
+    for (auto j = static_cast<std::size_t>(link.dof); j < static_cast<std::size_t>(link.dof + link.dofs); ++j) {
+      if (bounds_[j] == Probe::Bound::none && !link.pinned) most = std::max(most, std::abs(total_[j]));
+    }
   }
   for (std::size_t g = 0; g < goals.size(); ++g) {
-    if (!pulls(goals[g])) continue;
-    find_state(plan, state, goals[g], g, std::holds_alternative<OrientationSpring>(goals[g].spring), out);
+    if (pulls(goals[g])) find_state(plan, goals, g, out);
   }
   double weights = 0.0;
   for (const Term& term : plan.terms) weights += term.weight;
   // Pulls of less than a nanometre are no pulls.
   return most / std::max({scale, 1e-9 * weights, 1e-300});
+}
+
+void Explainer::compare(const SpringGoal& goal, std::size_t index, double error, double reached) {
+  apart_[index] = std::max(apart_[index], error / std::max(goal.tolerance, reached));
 }
 
 // Error, force, touch and target of one term; a pose goal's second adds to its first.
@@ -90,7 +100,11 @@ void Explainer::report(const Plan& plan, const Term& term, const SpringGoal& goa
     square += e * e;
   }
   out.error = std::sqrt(out.error * out.error + square);
+  const bool is_turn = term.kind == TermKind::turn || term.kind == TermKind::aim;
   costs_[static_cast<std::size_t>(term.goal)] += term.weight * square;
+  if (term.weight > 0.0)
+    compare(goal, static_cast<std::size_t>(term.goal), std::sqrt(square),
+            is_turn ? kReachedTurn * term.lever : kReachedPlace);
   if (term.kind == TermKind::balance) {
     out.touch = out.target = probe_.centre_of_mass(plan, term.figure);
     return;
@@ -122,61 +136,85 @@ void Explainer::report(const Plan& plan, const Term& term, const SpringGoal& goa
       break;
   }
   out.touch = touch;
-  const bool is_turn = term.kind == TermKind::turn || term.kind == TermKind::aim;
   if (!is_turn) out.force = (out.target - touch) * term.weight;
   if (term.kind == TermKind::turn && !std::holds_alternative<PoseSpring>(goal.spring)) out.force = -error * term.weight;
 }
 
-void Explainer::report_posture(const Plan& plan, const PostureSpring& posture, const SpringGoal& goal,
-                               std::size_t index, const std::vector<int>& link_of_segment, GoalReport& out) {
+void Explainer::report_posture(const Plan& plan, const State& state, const PostureSpring& posture,
+                               const SpringGoal& goal, std::size_t index, const std::vector<int>& link_of_segment,
+                               GoalReport& out) {
   double square = 0.0;
   for (const int joint : posture.joints) {
     const Link& link = plan.links[static_cast<std::size_t>(link_of_segment[static_cast<std::size_t>(joint)])];
-    for (std::size_t j = static_cast<std::size_t>(link.dof); j < static_cast<std::size_t>(link.dof + link.dofs); ++j) {
+    const auto first = static_cast<std::size_t>(link.dof), end = static_cast<std::size_t>(link.dof + link.dofs);
+    double here = 0.0, off = 0.0;
+    for (std::size_t j = first; j < end; ++j) {
       const double weight = plan.springs[j].weight;
       if (weight <= 0.0) continue;
       // The spring's weight has the lever in it. Two posture goals on one joint are told as one.
-      const double off = sprung_[j] / weight;
-      square += off * off * weight / goal.weight;
+      const double apart = sprung_[j] / weight;
+      off = std::max(off, std::abs(apart));
+      here += apart * apart * weight / goal.weight;
       slope(index)[j] += sprung_[j];
     }
+    if (link.kind == LinkKind::limb) {  // whose degrees of freedom are not at right angles
+      const double* more = state.more.data() + link.more;
+      const Vec3 direction(more[0], more[1], more[2]);
+      const Quat at = shortest_arc(link.limb, direction, perpendicular(link.limb, kX)) *
+                      quat_about(link.limb, state.turns[first + 2]);
+      const double* rest = plan.spring_more.data() + link.more;
+      const Quat apart = glm::conjugate(quat_from_xyzw(std::span<const double>(rest, 4))) * at;
+      off = 2.0 * std::atan2(glm::length(Vec3(apart.x, apart.y, apart.z)), std::abs(apart.w));
+      here = off * off * plan.springs[first].weight / goal.weight;
+    }
+    square += here;
+    const bool slides = link.dofs > 0 && plan.dofs[first].kind == DofKind::along_axis;
+    if (std::sqrt(square) > goal.tolerance) compare(goal, index, off, slides ? kReachedPlace : kReachedTurn);
   }
   out.error = std::sqrt(square);
   costs_[index] = goal.weight * square;
-  out.touch = out.target = probe_.point(link_of_segment[0], kZero);
+  if (link_of_segment[0] >= 0) out.touch = out.target = probe_.point(link_of_segment[0], kZero);
 }
 
-void Explainer::find_state(const Plan& plan, const State& state, const SpringGoal& goal, std::size_t index,
-                           bool turns_only, std::vector<GoalReport>& out) {
+void Explainer::find_state(const Plan& plan, std::span<const SpringGoal> goals, std::size_t index,
+                           std::vector<GoalReport>& out) {
   GoalReport& report = out[index];
-  const double reached = turns_only ? kReachedTurn * 0.25 : kReachedPlace;
+  const SpringGoal& goal = goals[index];
   report.state = GoalState::reached;
-  if (report.error <= std::max(goal.tolerance, reached)) return;
+  if (apart_[index] <= 1.0) return;
   double held = 0.0, free = 0.0;
   for (std::size_t j = 0; j < dofs_; ++j) {
     const double s = slope(index)[j];
     // It is the sum of all pulls that a limit stands against; this goal's share counts where it pushes the same way.
-    const bool limit = probe_.held(plan, state, j, total_[j]) != Probe::Bound::none && s * total_[j] > 0.0;
+    const bool limit = bounds_[j] != Probe::Bound::none && s * total_[j] > 0.0;
     (limit ? held : free) += s * s;
   }
   held = std::sqrt(held), free = std::sqrt(free);
-  const double whole = std::max(goal.weight, goal.orientation_weight) * report.error;
+  const bool is_pose = std::holds_alternative<PoseSpring>(goal.spring);
+  const double whole = (is_pose ? std::max(goal.weight, goal.orientation_weight) : goal.weight) * report.error;
   if (free <= kNoPull * whole)
     report.state = GoalState::unreachable;
   else
     report.state = held > free ? GoalState::limited : GoalState::balanced;
-  name_causes(plan, state, index, held, out);
+  name_causes(plan, goals, index, held, out);
+  if (report.state == GoalState::unreachable && held <= kNoPull * whole &&
+      (is_pose || std::holds_alternative<PositionSpring>(goal.spring))) {
+    Cause beyond;
+    beyond.kind = Cause::Kind::beyond;
+    beyond.beyond_m = glm::length(report.target - report.touch);
+    report.causes.push_back(beyond);
+  }
 }
 
-void Explainer::name_causes(const Plan& plan, const State& state, std::size_t index, double held_by_limits,
-                            std::vector<GoalReport>& out) {
+void Explainer::name_causes(const Plan& plan, std::span<const SpringGoal> goals, std::size_t index,
+                            double held_by_limits, std::vector<GoalReport>& out) {
   std::vector<Cause>& causes = out[index].causes;
   const std::span<double> mine = slope(index);
   // Limits that take a tenth of the pull or more.
   for (std::size_t i = 0; i < plan.links.size(); ++i) {
     const Link& link = plan.links[i];
     for (std::size_t j = static_cast<std::size_t>(link.dof); j < static_cast<std::size_t>(link.dof + link.dofs); ++j) {
-      const Probe::Bound bound = probe_.held(plan, state, j, total_[j]);
+      const Probe::Bound bound = bounds_[j];
       if (bound == Probe::Bound::none || mine[j] * total_[j] <= 0.0) continue;
       if (std::abs(mine[j]) < 0.1 * held_by_limits || causes.size() >= kMostCauses) continue;
       Cause cause;
@@ -192,7 +230,15 @@ void Explainer::name_causes(const Plan& plan, const State& state, std::size_t in
   for (std::size_t g = 0; g < out.size(); ++g) {
     double product = 0.0;
     for (std::size_t j = 0; g != index && j < dofs_; ++j) {
-      if (probe_.held(plan, state, j, total_[j]) == Probe::Bound::none) product += slope(g)[j] * mine[j];
+      if (bounds_[j] == Probe::Bound::none) product += slope(g)[j] * mine[j];
+    }
+    if (g != index && goals[g].priority == kPinPriority && goals[g].at.segment == 0 && pulls(goals[g])) {
+      // A root that is pinned whole stands still, so that its pin shows no pull of its own.
+      for (const Link& link : plan.links) {
+        if (!link.pinned || link.figure != goals[g].figure) continue;
+        for (auto j = static_cast<std::size_t>(link.dof); j < static_cast<std::size_t>(link.dof + link.dofs); ++j)
+          product -= mine[j] * mine[j];
+      }
     }
     if (product < 0.0) pulls_.push_back({g, -product});
   }

@@ -42,11 +42,12 @@ class Explainer {
   };
 
   void report(const Plan& plan, const Term& term, const SpringGoal& goal, GoalReport& out);
-  void report_posture(const Plan& plan, const PostureSpring& posture, const SpringGoal& goal, std::size_t index,
-                      const std::vector<int>& link_of_segment, GoalReport& out);
-  void find_state(const Plan& plan, const State& state, const SpringGoal& goal, std::size_t index, bool turns_only,
-                  std::vector<GoalReport>& out);
-  void name_causes(const Plan& plan, const State& state, std::size_t index, double held_by_limits,
+  void report_posture(const Plan& plan, const State& state, const PostureSpring& posture, const SpringGoal& goal,
+                      std::size_t index, const std::vector<int>& link_of_segment, GoalReport& out);
+  // What counts as reached is the same for every part of a goal: places, turns, single joints.
+  void compare(const SpringGoal& goal, std::size_t index, double error, double reached);
+  void find_state(const Plan& plan, std::span<const SpringGoal> goals, std::size_t index, std::vector<GoalReport>& out);
+  void name_causes(const Plan& plan, std::span<const SpringGoal> goals, std::size_t index, double held_by_limits,
                    std::vector<GoalReport>& out);
   std::span<double> slope(std::size_t goal) { return {slopes_.data() + goal * dofs_, dofs_}; }
 
@@ -54,7 +55,9 @@ class Explainer {
   std::size_t dofs_ = 0;
   std::vector<double> slopes_;  // of each goal, one a degree of freedom
   std::vector<double> total_, sprung_;
-  std::vector<double> costs_;  // of each goal
+  std::vector<double> costs_;         // of each goal
+  std::vector<double> apart_;         // of each goal: its error over what counts as reached
+  std::vector<Probe::Bound> bounds_;  // that hold a degree of freedom against the sum of all pulls
   std::vector<Pull> pulls_;
 };
 

@@ -14,7 +14,7 @@ namespace posed::springs::HWY_NAMESPACE {
 
 // A lane type is so many doubles side by side.
 template <class T>
-void put_in(const std::vector<double>& from, int lane, std::vector<T>& to) {
+void put_in(const std::vector<double>& from, int lane, Memory<T>& to) {
   double* values = reinterpret_cast<double*>(to.data());
   for (std::size_t j = 0; j < from.size(); ++j) values[j * lanes_of<T>() + static_cast<std::size_t>(lane)] = from[j];
 }

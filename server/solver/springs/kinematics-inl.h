@@ -6,8 +6,7 @@
 #define POSED_SPRINGS_KINEMATICS_INL_H_
 #endif
 
-#include <vector>
-
+#include "server/solver/springs/memory-inl.h"
 #include "server/solver/springs/plan.h"
 #include "server/solver/springs/swing-inl.h"
 
@@ -17,10 +16,10 @@ namespace posed::springs::HWY_NAMESPACE {
 // The values of State, lane by lane.
 template <class T>
 struct Steps {
-  std::vector<T> turns, more;
+  Memory<T> turns, more;
   void resize(const Plan& plan) {
-    turns.assign(plan.dofs.size() + kLanes, T(0.0));  // sines() writes whole vectors
-    more.assign(plan.more, T(0.0));
+    turns.resize(plan.dofs.size() + kLanes);  // sines() writes whole vectors
+    more.resize(plan.more);
   }
 };
 
@@ -121,10 +120,10 @@ class Kinematics {
     }
   }
 
-  std::vector<Placed<T>> placed_;
-  std::vector<Swinging<T>> swings_;
-  std::vector<V3<T>> axes_;
-  std::vector<T> sine_, cosine_;
+  Memory<Placed<T>> placed_;
+  Memory<Swinging<T>> swings_;
+  Memory<V3<T>> axes_;
+  Memory<T> sine_, cosine_;
 };
 
 }  // namespace posed::springs::HWY_NAMESPACE

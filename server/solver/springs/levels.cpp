@@ -28,11 +28,13 @@ double counted(Sense sense, double error) {
 void SpringSolver::balance_levels(std::span<const SpringGoal> goals, const SpringOptions& options,
                                   const Stop& should_stop, SolveReport& report) {
   const auto level_of = [&](const Term& term) { return goals[static_cast<std::size_t>(term.goal)].priority; };
-  const bool sprung = plan_.sprung;
   SpringOptions now = options;
   for (const int level : levels_) {
-    plan_.sprung = sprung && level == levels_.back();
+    set_springs(goals, &level);
     double heaviest = 0.0;
+    for (const SpringGoal& goal : goals) {
+      if (goal.priority == level && pulls(goal)) heaviest = std::max(heaviest, goal.weight);
+    }
     for (const Term& term : terms_) {
       if (level_of(term) == level) heaviest = std::max(heaviest, term.weight);
     }
@@ -57,8 +59,15 @@ void SpringSolver::balance_levels(std::span<const SpringGoal> goals, const Sprin
     for (std::size_t i = 0; i < terms_.size(); ++i) {
       if (level_of(terms_[i]) == level) held_[i].left = explainer_->probe().errors(plan_, terms_[i]).error;
     }
-    if (report.status == SolveStatus::deadline) return;
+    if (report.status == SolveStatus::deadline) break;
+    for (const SpringGoal& goal : goals) {
+      if (goal.priority == level && pulls(goal) && std::holds_alternative<PostureSpring>(goal.spring))
+        hold_joints(goal);
+    }
   }
+  // As they are told about.
+  set_springs(goals);
+  set_bounds(options);
 }
 
 double SpringSolver::counted_left(const Term& term, double error) {

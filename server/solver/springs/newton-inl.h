@@ -11,7 +11,6 @@
 #endif
 
 #include <type_traits>
-#include <vector>
 
 #include "server/solver/springs/kinematics-inl.h"
 #include "server/solver/springs/load-inl.h"
@@ -26,6 +25,7 @@ class Newton {
   void resize(const Plan& plan, std::size_t ties, std::size_t tie_parts) {
     loads_.resize(plan.links.size());
     slopes_.resize(plan.links.size());
+    raw_slopes_.resize(plan.links.size());
     motions_.resize(plan.links.size());
     roots_.resize(plan.links.size());
     columns_.resize(plan.dofs.size());
@@ -46,10 +46,10 @@ class Newton {
   T& spring_slope(std::size_t dof) { return spring_slopes_[dof]; }
 
   // A row over several segments. Parts are added after it.
-  void add_tie(const T& weight) { ties_.push_back({weight, parts_.size(), parts_.size()}); }
+  void add_tie(const T& weight) { ties_.add() = {weight, parts_.size(), parts_.size()}; }
   void add_part(int link, const Wrench<T>& row) {
-    parts_.push_back({link, row});
-    ++ties_.back().end;
+    parts_.add() = {link, row};
+    ++ties_[ties_.size() - 1].end;
   }
 
   // Eliminates all joints. `damping` times a degree of freedom's effort is added to its pivot; `newton` is 1 where the
@@ -59,7 +59,7 @@ class Newton {
                  const T& newton, T& gain) {
     if (!ties_.empty()) {
       for (std::size_t i = 0; i < loads_.size(); ++i) slopes_[i] = loads_[i].slope;
-      raw_slopes_ = slopes_;
+      raw_slopes_.copy(slopes_);
     }
     T least_pivot(1.0);
     gain = T(0.0);
@@ -292,7 +292,7 @@ class Newton {
   // with x the step of the tree alone; then they are slopes like any other.
   void bring_in_ties(const Plan& plan, const Kinematics<T>& figure) {
     const std::size_t n = ties_.size();
-    slopes_ = raw_slopes_;
+    slopes_.copy(raw_slopes_);
     respond(plan, figure, true);
     for (std::size_t a = 0; a < n; ++a) tie_slopes_[a] = along(ties_[a]);
     for (std::size_t b = 0; b < n; ++b) {
@@ -303,7 +303,7 @@ class Newton {
       tie_matrix_[b * n + b] = tie_matrix_[b * n + b] + T(1.0) / ties_[b].weight;
     }
     solve_ties(n);
-    slopes_ = raw_slopes_;
+    slopes_.copy(raw_slopes_);
     for (std::size_t a = 0; a < n; ++a) pull_at(ties_[a], tie_slopes_[a]);
     respond(plan, figure, true);
   }
@@ -326,14 +326,14 @@ class Newton {
     }
   }
 
-  std::vector<Load<T>> loads_;
-  std::vector<Wrench<T>> slopes_, raw_slopes_, motions_;
-  std::vector<RootFactor<T>> roots_;
-  std::vector<Column> columns_;
-  std::vector<T> spring_slopes_;
-  std::vector<Tie> ties_;
-  std::vector<Part> parts_;
-  std::vector<T> tie_matrix_, tie_slopes_;
+  Memory<Load<T>> loads_;
+  Memory<Wrench<T>> slopes_, raw_slopes_, motions_;
+  Memory<RootFactor<T>> roots_;
+  Memory<Column> columns_;
+  Memory<T> spring_slopes_;
+  Memory<Tie> ties_;
+  Memory<Part> parts_;
+  Memory<T> tie_matrix_, tie_slopes_;
 };
 
 }  // namespace posed::springs::HWY_NAMESPACE

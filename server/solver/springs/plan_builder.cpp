@@ -1,6 +1,7 @@
 #include "server/solver/springs/plan_builder.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -96,8 +97,11 @@ void set_limb(const Segment& segment, Link& link) {
   if (link.swing.center == kZero) link.swing.center = link.limb;
 }
 
-Quat swing_of(const Link& link, const Vec3& direction) {
-  return shortest_arc(link.limb, direction, perpendicular(link.limb, kX));
+// A turn that is out by whole turns is brought home.
+double home(const Dof& dof, double turn) {
+  const bool turns = dof.kind != DofKind::along_axis && dof.kind != DofKind::of_root;
+  if (!turns || !std::isfinite(dof.min) || !std::isfinite(dof.max) || (turn >= dof.min && turn <= dof.max)) return turn;
+  return turn - 2.0 * M_PI * std::round((turn - 0.5 * (dof.min + dof.max)) / (2.0 * M_PI));
 }
 
 // The share of the body's mass that each joint moves; without masses, of its segments.
@@ -184,8 +188,9 @@ void read_q(const BodyTree& tree, int figure, const Plan& plan, std::span<const 
       more[0] = d.x, more[1] = d.y, more[2] = d.z, more[3] = 0.0;
       turns[0] = turns[1] = 0.0, turns[2] = turn;
     } else if (joint.type == JointType::universal) {
-      turns[0] = angle_about(joint.axes[0], joint.axes[1], rotation() * joint.axes[1]);
-      turns[1] = angle_about(joint.axes[1], glm::conjugate(rotation()) * joint.axes[0], joint.axes[0]);
+      const Dof* dofs = plan.dofs.data() + link.dof;
+      turns[0] = home(dofs[0], angle_about(joint.axes[0], joint.axes[1], rotation() * joint.axes[1]));
+      turns[1] = home(dofs[1], angle_about(joint.axes[1], glm::conjugate(rotation()) * joint.axes[0], joint.axes[0]));
     } else if (joint.type == JointType::ball) {
       std::array<AngleRange, 3> ranges;
       for (std::size_t k = 0; k < 3; ++k)
@@ -231,15 +236,7 @@ void write_q(const BodyTree& tree, int figure, const Plan& plan, const State& st
 void confine(const Plan& plan, State& state) {
   for (const Link& link : plan.links) {
     for (std::size_t j = at(link.dof); j < at(link.dof + link.dofs); ++j) {
-      double& turn = state.turns[j];
-      // A turn that is out by whole turns is brought home first.
-      const Dof& dof = plan.dofs[j];
-      const bool turns = dof.kind != DofKind::along_axis && dof.kind != DofKind::of_root;
-      if (turns && (turn < dof.min || turn > dof.max) && std::isfinite(dof.min) && std::isfinite(dof.max)) {
-        const double middle = 0.5 * (dof.min + dof.max);
-        turn -= 2.0 * M_PI * std::round((turn - middle) / (2.0 * M_PI));
-      }
-      turn = std::clamp(turn, plan.least[j], plan.most[j]);
+      state.turns[j] = std::clamp(home(plan.dofs[j], state.turns[j]), plan.least[j], plan.most[j]);
     }
     if (link.kind != LinkKind::limb) continue;
     double* more = state.more.data() + link.more;

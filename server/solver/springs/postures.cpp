@@ -19,12 +19,12 @@ std::size_t at(int i) {
 }  // namespace
 
 // Where two posture goals hold one joint, an axis rests at their weighted mean; a ball at the later one's.
-void SpringSolver::set_springs(std::span<const SpringGoal> goals) {
+void SpringSolver::set_springs(std::span<const SpringGoal> goals, const int* level) {
   std::fill(plan_.springs.begin(), plan_.springs.end(), springs::Spring1{});
   plan_.sprung = false;
   for (const SpringGoal& goal : goals) {
     const auto* posture = std::get_if<PostureSpring>(&goal.spring);
-    if (!posture || !pulls(goal)) continue;
+    if (!posture || !pulls(goal) || (level && goal.priority != *level)) continue;
     const BodyTree& tree = figure(goal.figure);
     std::vector<double>& q = posture_q_[at(goal.figure)];
     std::size_t next = 0;
@@ -48,6 +48,16 @@ void SpringSolver::set_springs(std::span<const SpringGoal> goals) {
       if (link.kind != springs::LinkKind::axes && link.kind != springs::LinkKind::fixed) rest_quaternion(tree, link, q);
     }
     plan_.sprung = true;
+  }
+}
+
+// A posture that has been balanced is left as it is: its joints move no more.
+void SpringSolver::hold_joints(const SpringGoal& goal) {
+  for (const int joint : std::get<PostureSpring>(goal.spring).joints) {
+    springs::Link& link = plan_.links[at(link_of_segment_[at(goal.figure)][at(joint)])];
+    if (link.kind == springs::LinkKind::floating) link.pinned = true;
+    for (std::size_t j = at(link.dof); j < at(link.dof + link.dofs); ++j)
+      plan_.least[j] = plan_.most[j] = state_.turns[j];
   }
 }
 

@@ -1,5 +1,7 @@
 #include "server/solver/springs/probe.h"
 
+#include <algorithm>
+
 #include "server/solver/springs/pull-inl.h"
 
 namespace posed::springs {
@@ -10,7 +12,7 @@ struct Probe::Inside {
   here::Kinematics<double> figure;
   here::Newton<double> newton;
   here::Steps<double> at;
-  std::vector<here::Wrench<double>> wrenches;
+  here::Memory<here::Wrench<double>> wrenches;
 
   // Hands the wrenches of all links down to the roots.
   void collect(const Plan& plan, std::span<double> slope) {
@@ -38,7 +40,7 @@ Probe::~Probe() = default;
 
 void Probe::prepare(const Plan& plan) {
   inside_->figure.resize(plan);
-  inside_->newton.resize(plan, 1, plan.links.size() + plan.supports.size());
+  inside_->newton.resize(plan, 3, std::max<std::size_t>(6, plan.links.size() + plan.supports.size()));
   inside_->at.resize(plan);
   inside_->wrenches.resize(plan.links.size());
 }

@@ -82,7 +82,8 @@ class SpringSolver {
   void set_bounds(const SpringOptions& options);
   void set_terms(std::span<const SpringGoal> goals);
   void pin_roots(std::span<const SpringGoal> goals);
-  void set_springs(std::span<const SpringGoal> goals);
+  void set_springs(std::span<const SpringGoal> goals, const int* level = nullptr);  // null: of all levels
+  void hold_joints(const SpringGoal& posture);
   void rest_quaternion(const BodyTree& tree, const springs::Link& link, std::span<const double> q);
   void hold_to_start();
   void let_go_of_start();

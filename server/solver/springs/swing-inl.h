@@ -77,9 +77,11 @@ struct Swinging {
     const T zero(0.0), one(1.0);
     direction = d;
     const V3<T> p(link.limb);
-    const T near_turned = most(one + dot(p, d), T(1e-9));
-    const V3<T> v = cross(p, d), q = v * (one / near_turned);
+    const V3<T> v = cross(p, d);
     const T c = dot(p, d);
+    // 1 + c, without its loss of digits where the limb points backwards
+    const T near_turned = select(c < zero, most(dot(v, v), T(1e-30)) / (one - c), one + c);
+    const V3<T> q = v * (one / near_turned);
     rotation = {{c + q.x * v.x, q.x * v.y + v.z, q.x * v.z - v.y},
                 {q.y * v.x - v.z, c + q.y * v.y, q.y * v.z + v.x},
                 {q.z * v.x + v.y, q.z * v.y - v.x, c + q.z * v.z}};
@@ -131,15 +133,27 @@ HWY_INLINE V3<T> kept_inside(const Link& link, V3<T> d) {
     sine_and_cosine(angle, s, c);
     return select(on.level > one, V3<T>(link.swing.center) * c + on.radial * s, d);
   }
+  // The nearest place of the edge: on one of the great arcs, or else a corner.
   const auto& corners = link.swing.corners;
-  for (int round = 0; round < 8; ++round) {
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-      const V3<T> inward(glm::normalize(glm::cross(corners[k], corners[(k + 1) % corners.size()])));
-      d = d - inward * least(dot(inward, d), T(0.0));
-    }
-    d = d * (one / root(dot(d, d)));
+  const T zero(0.0);
+  V3<T> best = d;
+  T nearest(-2.0), depth(1.0);
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Vec3 &first = corners[k], &second = corners[(k + 1) % corners.size()];
+    const Vec3 normal = glm::normalize(glm::cross(first, second));
+    const V3<T> inward(normal);
+    const T inside = dot(inward, d);
+    depth = least(depth, inside);
+    const V3<T> foot = d - inward * inside;
+    const V3<T> on = foot * (one / root(most(dot(foot, foot), T(1e-30))));
+    const Mask<T> between =
+        (dot(V3<T>(glm::cross(normal, first)), on) >= zero) & (dot(V3<T>(glm::cross(second, normal)), on) >= zero);
+    const V3<T> here = select(between, on, V3<T>(first));
+    const T near = dot(here, d);
+    best = select(near > nearest, here, best);
+    nearest = most(near, nearest);
   }
-  return d;
+  return select(depth < zero, best, d);
 }
 
 }  // namespace posed::springs::HWY_NAMESPACE
