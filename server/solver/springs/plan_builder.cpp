@@ -104,6 +104,10 @@ double home(const Dof& dof, double turn) {
   return turn - 2.0 * M_PI * std::round((turn - 0.5 * (dof.min + dof.max)) / (2.0 * M_PI));
 }
 
+Quat swing_of(const Link& link, const Vec3& direction) {
+  return shortest_arc(link.limb, direction, perpendicular(link.limb, kX));
+}
+
 // The share of the body's mass that each joint moves; without masses, of its segments.
 std::vector<double> moved_shares(const BodyTree& tree) {
   std::vector<double> moved(at(tree.size()));

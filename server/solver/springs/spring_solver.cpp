@@ -21,6 +21,7 @@ namespace {
 constexpr double kFar = 0.02;         // m, weighted RMS: a start from farther away takes the long way (go_far)
 constexpr double kReachedRms = 1e-3;  // m
 constexpr double kClearlyBetter = 0.7;
+constexpr double kOutside = 1e-10;  // rad or m beyond a limit that are a matter of rounding
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -81,7 +82,16 @@ SpringSolver::SpringSolver(std::vector<std::shared_ptr<const BodyTree>> figures)
     : figures_(std::move(figures)),
       kernel_(springs::make_kernel()),
       explainer_(std::make_unique<springs::Explainer>()),
-      link_of_segment_(figures_.size()) {}
+      link_of_segment_(figures_.size()),
+      whole_(figures_.size()) {
+  for (std::size_t f = 0; f < figures_.size(); ++f) {
+    const std::vector<char> all(at(figures_[f]->size()), 1);
+    std::vector<int> links;
+    springs::add_figure(*figures_[f], static_cast<int>(f), all, whole_[f].plan, links);
+    springs::resize(whole_[f].plan, whole_[f].state);
+    springs::resize(whole_[f].plan, whole_[f].inside);
+  }
+}
 
 SpringSolver::SpringSolver(std::shared_ptr<const BodyTree> figure)
     : SpringSolver(std::vector<std::shared_ptr<const BodyTree>>{std::move(figure)}) {}
@@ -133,6 +143,7 @@ void SpringSolver::solve(std::span<const SpringGoal> goals, const SpringOptions&
   for (std::size_t f = 0; f < figures_.size(); ++f) {
     assert(static_cast<int>(out.q[f].size()) == figures_[f]->q_size());
     normalise_quaternions(*figures_[f], out.q[f]);
+    if (options.accuracy == 0.0) confine_all(f, out.q[f]);  // a stream's next start is an answer, and inside
     springs::read_q(*figures_[f], static_cast<int>(f), plan_, out.q[f], state_);
   }
   set_bounds(options);
@@ -161,9 +172,31 @@ void SpringSolver::explain(std::span<const SpringGoal> goals, const SpringOption
   out.report.cost = cost_;
   if (!options.explain) return;
   std::copy(terms_.begin(), terms_.end(), plan_.terms.begin());
+  // What the stream's bound holds back is held by no limit.
+  for (std::size_t j = 0; j < plan_.dofs.size(); ++j)
+    plan_.least[j] = plan_.dofs[j].min, plan_.most[j] = plan_.dofs[j].max;
   out.report.balance_error = explainer_->explain(plan_, goals, link_of_segment_, state_, out.goals);
   out.report.cost = 0.0;
   for (std::size_t g = 0; g < goals.size(); ++g) out.report.cost += explainer_->cost(g);
+}
+
+// Joints that no goal moves come inside their limits too. What is inside keeps its bytes.
+void SpringSolver::confine_all(std::size_t figure, std::span<double> q) {
+  Whole& whole = whole_[figure];
+  const int index = static_cast<int>(figure);
+  springs::read_q(*figures_[figure], index, whole.plan, q, whole.state);
+  copy(whole.state, whole.inside);
+  springs::confine(whole.plan, whole.inside);
+  for (std::size_t k = 0; k < whole.plan.dofs.size(); ++k) {
+    if (std::abs(whole.state.turns[k] - whole.inside.turns[k]) > kOutside) return write_whole(figure, q);
+  }
+  for (std::size_t k = 0; k < whole.plan.more; ++k) {
+    if (std::abs(whole.state.more[k] - whole.inside.more[k]) > kOutside) return write_whole(figure, q);
+  }
+}
+
+void SpringSolver::write_whole(std::size_t figure, std::span<double> q) const {
+  springs::write_q(*figures_[figure], static_cast<int>(figure), whole_[figure].plan, whole_[figure].inside, q);
 }
 
 // A stream's bound on the joints' speed is a bound like any other.
@@ -181,7 +214,13 @@ void SpringSolver::set_bounds(const SpringOptions& options) {
 void SpringSolver::set_terms(std::span<const SpringGoal> goals) {
   std::size_t next = 0;
   for (const SpringGoal& goal : goals) {
-    if (pulls(goal)) next += springs::update_terms(goal, figures_, std::span(terms_).subspan(next));
+    if (!pulls(goal)) continue;
+    if (const auto* balance = std::get_if<BalanceSpring>(&goal.spring)) {
+      const auto first = at(terms_[next].first_support);
+      for (std::size_t k = 0; k < balance->support.size(); ++k)
+        plan_.supports[first + k].point = balance->support[k].point;
+    }
+    next += springs::update_terms(goal, figures_, std::span(terms_).subspan(next));
   }
   std::copy(terms_.begin(), terms_.end(), plan_.terms.begin());
 }
@@ -207,7 +246,8 @@ void SpringSolver::pin_roots(std::span<const SpringGoal> goals) {
 
 double SpringSolver::weights() const {
   double sum = 0.0;
-  for (const Term& term : plan_.terms) sum += term.weight;
+  // Of what is held for a higher priority the goals' own, which are not as stiff.
+  for (std::size_t i = 0; i < terms_.size(); ++i) sum += plan_.terms[i].weight > 0.0 ? terms_[i].weight : 0.0;
   for (std::size_t j = 0; plan_.sprung && j < plan_.springs.size(); ++j) sum += plan_.springs[j].weight;
   return sum;
 }

@@ -78,7 +78,14 @@ class SpringSolver {
     std::array<double, 3> left{0.0, 0.0, 0.0};  // errors that a level of higher priority could not meet
   };
 
+  struct Whole {  // a figure with all its joints
+    springs::Plan plan;
+    springs::State state, inside;
+  };
+
   // What a solve is given.
+  void confine_all(std::size_t figure, std::span<double> q);
+  void write_whole(std::size_t figure, std::span<double> q) const;
   void set_bounds(const SpringOptions& options);
   void set_terms(std::span<const SpringGoal> goals);
   void pin_roots(std::span<const SpringGoal> goals);
@@ -110,6 +117,7 @@ class SpringSolver {
   std::vector<Signature> signatures_;
   springs::Plan plan_;
   std::vector<std::vector<int>> link_of_segment_;  // of each figure
+  std::vector<Whole> whole_;                       // of each figure
   std::vector<int> levels_;                        // priorities in use, in their order
   std::vector<springs::Term> terms_;               // of all goals; plan_.terms has them as the level sees them
   std::vector<Held> held_;                         // one a term

@@ -21,10 +21,6 @@ std::vector<Vec3> axes_of(const Joint& joint) {
 
 constexpr double kFromStartPose = 0.4;  // of the way to the middle of a hinge's range
 
-double wrapped(double angle) {
-  return std::remainder(angle, 2.0 * M_PI);
-}
-
 double beyond(const Hinge& hinge, double angle) {
   return std::max({0.0, hinge.min - angle, angle - hinge.max});
 }

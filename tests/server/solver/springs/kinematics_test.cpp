@@ -65,7 +65,7 @@ void expect_same(Eight& eight, double close) {
     one.place(eight.plan, eight.alone[static_cast<std::size_t>(n)]);
     forward_kinematics(*eight.tree, eight.q[static_cast<std::size_t>(n)], world);
     for (int i = 0; i < eight.tree->size(); ++i) {
-      const auto segment = static_cast<std::size_t>(i);
+      const auto segment = static_cast<std::size_t>(eight.plan.links[static_cast<std::size_t>(i)].segment);
       EXPECT_LT(off(one.placed(i), 0, world[segment]), close) << n << " " << i;
       EXPECT_LT(off(together.placed(i), n, world[segment]), close) << n << " " << i;
     }
