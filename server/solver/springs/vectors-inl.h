@@ -11,6 +11,8 @@
 
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic ignored "-Wpsabi"  // all of it is inlined: nothing is passed between calls
+#elif defined(__clang__)
+#pragma clang diagnostic ignored "-Wbitwise-instead-of-logical"  // masks are bool for one alone
 #endif
 
 HWY_BEFORE_NAMESPACE();
