@@ -9,12 +9,6 @@ namespace {
 
 constexpr double kQuarterTurn = 1e-9;  // cosine of y below which x and z are one angle
 
-// The same angle by whole turns, as near to the range as can be.
-double near_range(double angle, const AngleRange& range) {
-  if (!std::isfinite(range.min) || !std::isfinite(range.max)) return angle;
-  return angle - 2.0 * M_PI * std::round((angle - 0.5 * (range.min + range.max)) / (2.0 * M_PI));
-}
-
 double beyond(double angle, const AngleRange& range) {
   return std::max({angle - range.max, range.min - angle, 0.0});
 }
@@ -26,6 +20,12 @@ double left_about_z(const Quat& turn, double x, double y) {
 }
 
 }  // namespace
+
+double near_range(double angle, const AngleRange& range) {
+  if (!std::isfinite(range.min) || !std::isfinite(range.max) || (angle >= range.min && angle <= range.max))
+    return angle;
+  return angle - 2.0 * M_PI * std::round((angle - 0.5 * (range.min + range.max)) / (2.0 * M_PI));
+}
 
 std::array<double, 3> ball_angles(const Quat& turn, const std::array<AngleRange, 3>& ranges) {
   const Vec3 z = turn * kZ;

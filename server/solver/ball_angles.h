@@ -11,6 +11,10 @@ struct AngleRange {
   double min = -M_PI, max = M_PI;
 };
 
+// The angle, moved by whole turns to where it lies in the range, or nearest to its middle. An open range leaves it
+// alone.
+double near_range(double angle, const AngleRange& range);
+
 // x, y, z of R = Rx(x) Ry(y) Rz(z), rad. Of the two triples that there are, the one that is nearer to the ranges; where
 // y is a quarter turn, so that only the sum or difference of x and z is known, a split that lies in the ranges if any
 // does.

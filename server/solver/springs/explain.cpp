@@ -18,10 +18,6 @@ Cause::Side side_of(Probe::Bound bound) {
                                       : Cause::Side::swing;
 }
 
-double counted(Sense sense, double error) {
-  return sense == Sense::equal ? error : sense == Sense::at_least ? std::min(error, 0.0) : std::max(error, 0.0);
-}
-
 }  // namespace
 
 void Explainer::prepare(const Plan& plan, std::size_t goals) {

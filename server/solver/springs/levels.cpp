@@ -10,7 +10,6 @@
 
 namespace posed {
 
-using springs::Sense;
 using springs::Term;
 
 namespace {
@@ -18,10 +17,6 @@ namespace {
 constexpr double kStiff = 1e4;       // against the heaviest goal of the level
 constexpr double kHeldPlace = 1e-8;  // m
 constexpr int kRounds = 6;
-
-double counted(Sense sense, double error) {
-  return sense == Sense::equal ? error : sense == Sense::at_least ? std::min(error, 0.0) : std::max(error, 0.0);
-}
 
 }  // namespace
 
@@ -47,7 +42,7 @@ void SpringSolver::balance_levels(std::span<const SpringGoal> goals, const Sprin
       holds = true;
       term.weight = kStiff * std::max(heaviest, 1e-6);
       // What was left; an inequality that was met has room.
-      for (std::size_t k = 0; k < 3; ++k) term.shift[k] = counted_left(terms_[i], held_[i].left[k]);
+      for (std::size_t k = 0; k < 3; ++k) term.shift[k] = counted(terms_[i].sense, held_[i].left[k]);
     }
     for (int round = 0; round < kRounds; ++round) {
       balance(now, should_stop, report);
@@ -68,10 +63,6 @@ void SpringSolver::balance_levels(std::span<const SpringGoal> goals, const Sprin
   // As they are told about.
   set_springs(goals);
   set_bounds(options);
-}
-
-double SpringSolver::counted_left(const Term& term, double error) {
-  return counted(term.sense, error);
 }
 
 // Moves the springs' rest by what they gave way. False where none did.

@@ -5,6 +5,7 @@
 // and `more`: quaternions of balls (4: x y z w) and places of floating roots (7: position, x y z w).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <limits>
@@ -50,11 +51,15 @@ struct Link {
   Vec3 limb{0.0, 0.0, 1.0};  // direction at rest, unit
   Swing swing;               // center is set
   bool swings_freely = false;
-  Limit twist{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
 };
 
 enum class TermKind { point, turn, aim, plane, line, distance, balance };
 enum class Sense { equal, at_least, at_most };  // which errors count: all, those below 0, those above 0
+
+// The part of an error that counts.
+inline double counted(Sense sense, double error) {
+  return sense == Sense::equal ? error : sense == Sense::at_least ? std::min(error, 0.0) : std::max(error, 0.0);
+}
 
 // A goal, or the half of a pose goal, as the kernels see it: up to three errors. Frames: `place`, `direction` and
 // `rotation` are in the base's frame, and in the world where the base does not move.

@@ -90,7 +90,6 @@ void set_limb(const Segment& segment, Link& link) {
   const double length = glm::length(segment.touch_point);
   link.limb = length > 0.0 ? segment.touch_point / length : kZ;
   const Joint& joint = segment.joint;
-  if (joint.twist) link.twist = *joint.twist;
   link.swings_freely = !joint.swing;
   if (!joint.swing) return;
   link.swing = *joint.swing;
@@ -100,8 +99,7 @@ void set_limb(const Segment& segment, Link& link) {
 // A turn that is out by whole turns is brought home.
 double home(const Dof& dof, double turn) {
   const bool turns = dof.kind != DofKind::along_axis && dof.kind != DofKind::of_root;
-  if (!turns || !std::isfinite(dof.min) || !std::isfinite(dof.max) || (turn >= dof.min && turn <= dof.max)) return turn;
-  return turn - 2.0 * M_PI * std::round((turn - 0.5 * (dof.min + dof.max)) / (2.0 * M_PI));
+  return turns ? near_range(turn, {dof.min, dof.max}) : turn;
 }
 
 Quat swing_of(const Link& link, const Vec3& direction) {

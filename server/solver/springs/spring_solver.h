@@ -100,7 +100,6 @@ class SpringSolver {
   // Ways to the balance, from state_ to state_.
   void balance_levels(std::span<const SpringGoal> goals, const SpringOptions& options, const Stop& should_stop,
                       SolveReport& report);
-  static double counted_left(const springs::Term& term, double error);
   bool shift_held(std::span<const SpringGoal> goals, int level);
   void balance(const SpringOptions& options, const Stop& should_stop, SolveReport& report);
   void go_far(const SpringOptions& options, const Stop& should_stop, SolveReport& report);

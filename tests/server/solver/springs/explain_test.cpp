@@ -207,5 +207,13 @@ TEST(Explain, ForceIsWeightTimesError) {
   }
 }
 
+// The joint's range is far away; it is the stream's bound that holds it for this frame.
+TEST(Explain, TheStreamsBoundIsNoLimitOfTheJoint) {
+  Stopped b;
+  b.options.most_turn = 0.01;
+  b.pull("s1", {0.5, 0, 1.9});
+  EXPECT_EQ(limit_of(b.solve().goals[0], 1), nullptr);
+}
+
 }  // namespace
 }  // namespace posed

@@ -70,5 +70,35 @@ TEST(Levels, APostureOfAnEarlierLevelIsLeftByLaterGoals) {
   EXPECT_LT(b.error(b.solve(), 0), 1e-6);
 }
 
+// Open faults: disabled, so that they do not hide new ones; --gtest_also_run_disabled_tests shows them.
+// What goals of a later level add moves no earlier one by more than a micrometre.
+TEST(Levels, DISABLED_LaterGoalsLeaveEarlierOnesAsTheyAre) {
+  std::mt19937 random(71);
+  for (int n = 0; n < 40; ++n) {
+    SpringBench b(test::human());
+    for (const char* end : {"left_hand", "lower_torso", "left_foot"})
+      b.pull(end, b.touch(end) + test::random_point(random, n % 2 == 0 ? 0.3 : 1.5), 10.0);
+    const SpringPose alone = b.solve();
+    b.pull("right_hand", test::random_point(random, 3.0), 1000.0).priority = 1;
+    b.pull("head", test::random_point(random, 3.0), 0.1).priority = 2;
+    const SpringPose both = b.solve();
+    for (std::size_t g = 0; g < 3; ++g) EXPECT_LT(b.error(both, g), b.error(alone, g) + 1e-6) << n << " " << g;
+    EXPECT_LT(test::worst_limit(b.figures, both.q), 1e-9);
+  }
+}
+
+TEST(Levels, DISABLED_OrientationsAndRelativeGoalsAreHeldToo) {
+  SpringBench b(test::human());
+  b.pull("lower_torso", b.touch("lower_torso"), 100);
+  b.add("right_hand", OrientationSpring{quat_about(kX, 0.5)});
+  auto& relative = b.pull("left_hand", {0.3, 0.2, 0.2});
+  relative.base_segment = *b.figures[0]->find_segment("upper_torso");
+  const SpringPose alone = b.solve();
+  b.pull("right_hand", {1.5, 0.5, 0.5}, 100).priority = 1;
+  b.pull("left_hand", {-0.5, 1, 2}, 100).priority = 1;
+  const SpringPose both = b.solve();
+  for (std::size_t g = 0; g < 3; ++g) EXPECT_LT(b.error(both, g), b.error(alone, g) + 1e-6) << g;
+}
+
 }  // namespace
 }  // namespace posed

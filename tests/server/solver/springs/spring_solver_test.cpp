@@ -183,5 +183,44 @@ TEST(SpringSolver, PinsHoldAgainstAnyWeight) {
   EXPECT_EQ(out.goals[2].state, GoalState::balanced);
 }
 
+// Goals that pull at nothing (all weights zero) and joints that no goal moves are answered for, too.
+TEST(SpringSolver, JointsThatNoGoalMovesComeInsideTheirLimitsToo) {
+  SpringBench b(test::human());
+  const auto knee = static_cast<std::size_t>(b.figures[0]->q_at(*b.figures[0]->find_joint("left_knee")));
+  const auto v = xyzw(quat_about(kY, -1.0));  // bent the wrong way
+  std::copy(v.begin(), v.end(), b.start[0].begin() + static_cast<std::ptrdiff_t>(knee));
+  ASSERT_GT(test::worst_limit(b.figures, b.start), 0.5);
+  EXPECT_LT(test::worst_limit(b.figures, b.solve().q), 1e-9) << "no goals";
+  b.pull("right_hand", {0.4, -0.3, 1.2});
+  EXPECT_LT(test::worst_limit(b.figures, b.solve().q), 1e-9) << "a goal elsewhere";
+}
+
+TEST(SpringSolver, PreparingTakesTheAllocationsWithIt) {
+  SpringBench warm(test::human()), fresh(test::human());
+  of_every_kind(warm);
+  SpringPose out;
+  out.q = warm.start;
+  warm.solver.solve(warm.goals, warm.options, {}, out);  // `out` has its memory
+  fresh.solver.prepare(warm.goals);
+  const std::size_t before = test::allocation_count();
+  fresh.solver.solve(warm.goals, warm.options, {}, out);
+  EXPECT_EQ(test::allocation_count(), before);
+}
+
+// Points of support are as much a part of the goal as its margin.
+TEST(SpringSolver, ANewPlaceOfSupportIsSeen) {
+  SpringBench b(test::human());
+  b.pull("left_foot", b.touch("left_foot"), 100);
+  SpringGoal goal;
+  const int foot = *b.figures[0]->find_segment("left_foot");
+  goal.spring = BalanceSpring{{{foot, {0, 0, 0}}, {foot, {0.1, 0, 0}}}, 0.0};
+  b.goals.push_back(goal);
+  b.solve();
+  std::get<BalanceSpring>(b.goals[1].spring).support = {{foot, {0, 0.5, 0}}, {foot, {0.1, 0.5, 0}}};
+  SpringBench fresh(b.figures);
+  fresh.goals = b.goals;
+  EXPECT_TRUE(test::same_bytes(b.solve().q, fresh.solve().q));
+}
+
 }  // namespace
 }  // namespace posed

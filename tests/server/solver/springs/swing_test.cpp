@@ -44,10 +44,9 @@ std::vector<Swing> swings() {
           test::polygon({{0.01, 0, 1}, {-0.005, 0.009, 1}, {-0.005, -0.009, 1}})};
 }
 
-TEST(Swing, WhatIsInsideAnEllipseStaysAndWhatIsOutsideComesToTheEdge) {
+TEST(Swing, WhatIsInsideStaysAndWhatIsOutsideComesToTheEdge) {
   std::mt19937 random(51);
   for (const Swing& swing : swings()) {
-    if (swing.kind == Swing::Kind::polygon) continue;
     for (int n = 0; n < 2000; ++n) {
       const Vec3 d = glm::normalize(test::random_point(random, 1.0) + Vec3(0, 0, 1e-3));
       const Vec3 kept = springs::inside_swing(link_with(swing), d);
@@ -66,6 +65,56 @@ TEST(Swing, TheCornersOfAPolygonAreInside) {
   for (const Swing& swing : swings()) {
     for (const Vec3& c : swing.corners) EXPECT_LT(glm::length(springs::inside_swing(link_with(swing), c) - c), 1e-9);
   }
+}
+
+// A limb of 1 m on a fixed base that is pulled to a far point: it comes to rest where, of all it may point to, is
+// nearest.
+double best_cost(const Swing& swing, const Vec3& target) {
+  std::mt19937 random(53);
+  double best = 1e300, reach = 1.0;
+  Vec3 at = kZ;
+  for (int n = 0; n < 20'000; ++n) {
+    const Vec3 d = glm::normalize((n < 10'000 ? kZero : at) + test::random_point(random, reach));
+    if (n >= 10'000) reach *= 0.998;
+    if (beyond(swing, d) > 0.0) continue;
+    const double cost = 10.0 * glm::dot(d - target, d - target);
+    if (cost < best) best = cost, at = d;
+  }
+  return best;
+}
+
+// Open faults: disabled, so that they do not hide new ones; --gtest_also_run_disabled_tests shows them.
+TEST(Swing, DISABLED_ExactlyBehindTheCentreTooItComesToTheEdge) {
+  for (const Swing& swing : swings()) {
+    const Vec3 d = springs::inside_swing(link_with(swing), swing.center == kZero ? -kZ : -swing.center);
+    EXPECT_NEAR(glm::length(d), 1.0, 1e-12);
+    EXPECT_LT(beyond(swing, d), 1e-9);
+  }
+}
+
+TEST(Swing, DISABLED_APulledLimbSlidesAlongTheEdgeToTheBestPlace) {
+  std::mt19937 random(52);
+  int worse = 0, all = 0;
+  for (const Swing& swing : swings()) {
+    FigureDocument d = test::column(2, 1.0, JointType::fixed);
+    d.segments[1].joint.swing = swing;
+    const auto tree = test::build(d);
+    SpringSolver solver(tree);
+    for (int n = 0; n < 6; ++n) {
+      const Vec3 target = 2.0 * glm::normalize(test::random_point(random, 1.0) + Vec3(0, 0, 1e-3));
+      const std::vector<SpringGoal> goals = {
+          test::goal_at(*tree, "s1", PositionSpring{tree->segment(1).joint.parent_from_joint.position + target})};
+      SpringPose pose;
+      pose.q = {tree->rest()};
+      solver.solve(goals, {}, {}, pose);
+      EXPECT_LT(test::beyond_limits(*tree, pose.q[0]), 1e-9) << n;
+      EXPECT_LT(test::unbalance({tree}, goals, pose.q), 1e-4) << n;
+      ++all;
+      // A polygon has one valley; so has an ellipse, but for targets behind it.
+      worse += pose.report.cost > best_cost(swing, target) + 1e-2;
+    }
+  }
+  EXPECT_LE(worse, all / 10);
 }
 
 }  // namespace
