@@ -46,7 +46,7 @@ Status Publisher::check(const proto::StreamSubscribe& wish) const {
                    "/figures/" + std::to_string(i), did_you_mean(wish.figures[i], known)};
     }
   }
-  if (const Status checked = check_fields(wish.fields); !checked) return checked;
+  if (Status checked = check_fields(wish.fields); !checked) return checked;
   if (wish.stream != proto::Stream::pose && !(wish.figures.empty() && wish.fields.empty())) {
     return Error{"invalid_params", "only the pose stream has figures and fields to choose",
                  wish.figures.empty() ? "/fields" : "/figures", "leave it out"};

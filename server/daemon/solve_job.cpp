@@ -55,7 +55,7 @@ void SolveJob::done(std::size_t part, std::string text) {
 }
 
 // A large text is made here, and only sent there.
-void SolveJob::answer(std::string result) {
+void SolveJob::answer(const std::string& result) {
   station_.loop.post(
       [responder = responder_, text = responder_.reply_text(result)]() mutable { responder.deliver(std::move(text)); });
 }

@@ -41,7 +41,7 @@ class SolveJob final : public WorkerPool::Job {
  private:
   proto::Solved solve(std::size_t part, std::size_t worker);
   void done(std::size_t part, std::string text);
-  void answer(std::string result);
+  void answer(const std::string& result);
   void fail(const Error& error);
 
   const Station station_;

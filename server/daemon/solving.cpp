@@ -34,6 +34,7 @@ std::map<std::string, std::size_t> tie(const Scene& scene, Method method) {
 // A solver is kept where its figures are the same: it need not lay out the same goals again.
 std::unique_ptr<FigureGroup> Solving::make_group(const std::vector<const SceneFigure*>& figures) {
   std::vector<std::shared_ptr<const BodyTree>> trees;
+  trees.reserve(figures.size());
   for (const SceneFigure* figure : figures) trees.push_back(figure->tree);
   for (auto& group : groups_) {
     if (group && group->method() == method && group->trees() == trees) return std::move(group);

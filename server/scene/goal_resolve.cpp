@@ -206,7 +206,7 @@ class Resolver {
 }  // namespace
 
 Result<AttachedPoint> resolve_place(const Attachment& at, const BodyTree& tree, const std::string& path) {
-  const Result<AttachedPoint> place = tree.attach(at);
+  Result<AttachedPoint> place = tree.attach(at);
   if (!place) return below(path, place.error());
   for (int i = 0; i < 3; ++i) {
     if (at.point && !(std::abs((*at.point)[i]) <= kMaxLength)) {

@@ -28,6 +28,7 @@ Result<std::vector<double>> oriented_share(const Segment& segment, const JointVa
 Result<int> find_joint(const BodyTree& tree, const std::string& name) {
   if (const auto joint = tree.find_joint(name)) return *joint;
   std::vector<std::string> known;
+  known.reserve(static_cast<std::size_t>(tree.size()));
   for (int i = 0; i < tree.size(); ++i) known.push_back(tree.joint(i).name);
   return Error{"unknown_joint", "no joint is called " + name.substr(0, 64), "",
                did_you_mean(name, known) + (known.size() > 24 ? " figure.get names them" : "")};

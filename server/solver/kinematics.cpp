@@ -7,36 +7,39 @@
 
 namespace posed {
 
-Transform joint_motion(const Joint& joint, std::span<const double> share) {
+Transform place_segment(const BodyTree& tree, int i, std::span<const double> q, const Transform& world_from_parent) {
+  const Joint& joint = tree.joint(i);
+  const double* share = q.data() + tree.q_at(i);
+  const auto quat = [](const double* v) { return quat_from_xyzw(v[0], v[1], v[2], v[3]); };
+  if (joint.type == JointType::free) return {{share[0], share[1], share[2]}, quat(share + 3)};
+  const Transform& offset = joint.parent_from_joint;
+  Transform out{world_from_parent * offset.position, world_from_parent.rotation};
+  if (offset.rotation != quat_identity()) out.rotation = out.rotation * offset.rotation;
   switch (joint.type) {
     case JointType::ball:
     case JointType::universal:
-      return {kZero, quat_from_xyzw(share)};
+      out.rotation = out.rotation * quat(share);
+      break;
     case JointType::hinge:
-      return {kZero, quat_about(joint.axes[0], share[0])};
+      out.rotation = out.rotation * quat_about(joint.axes[0], share[0]);
+      break;
     case JointType::prismatic:
-      return {joint.axes[0] * share[0], quat_identity()};
+      out.position += out.rotation * joint.axes[0] * share[0];
+      break;
     case JointType::free:
     case JointType::fixed:
       break;
   }
-  return {};
-}
-
-Transform place_segment(const BodyTree& tree, int i, std::span<const double> q, const Transform& world_from_parent) {
-  const Joint& joint = tree.joint(i);
-  const auto share = q.subspan(static_cast<std::size_t>(tree.q_at(i)), static_cast<std::size_t>(q_size(joint.type)));
-  if (joint.type == JointType::free) return {{share[0], share[1], share[2]}, quat_from_xyzw(share.subspan(3))};
-  const Transform parent_from_segment = joint.parent_from_joint * joint_motion(joint, share);
-  return i == 0 ? parent_from_segment : world_from_parent * parent_from_segment;
+  return out;
 }
 
 void forward_kinematics(const BodyTree& tree, std::span<const double> q, std::span<Transform> world_from_segment) {
   assert(static_cast<int>(q.size()) == tree.q_size());
   assert(static_cast<int>(world_from_segment.size()) == tree.size());
-  for (int i = 0; i < tree.size(); ++i) {
-    const Transform parent = i == 0 ? Transform{} : world_from_segment[static_cast<std::size_t>(tree.parent(i))];
-    world_from_segment[static_cast<std::size_t>(i)] = place_segment(tree, i, q, parent);
+  world_from_segment[0] = place_segment(tree, 0, q, {});
+  for (int i = 1; i < tree.size(); ++i) {
+    world_from_segment[static_cast<std::size_t>(i)] =
+        place_segment(tree, i, q, world_from_segment[static_cast<std::size_t>(tree.parent(i))]);
   }
 }
 

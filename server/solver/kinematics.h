@@ -17,9 +17,6 @@
 
 namespace posed {
 
-// The joint's motion for its share of q (not for a free joint).
-Transform joint_motion(const Joint& joint, std::span<const double> share);
-
 // World transform of segment i, given its parent's (ignored for the root).
 Transform place_segment(const BodyTree& tree, int i, std::span<const double> q, const Transform& world_from_parent);
 

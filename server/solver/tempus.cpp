@@ -73,9 +73,10 @@ std::vector<Segment> left_arm() {
   universal(clavicle, "left_sternoclavicular", -kZ, kX, {degrees(-25, 25), degrees(-10, 30)});
   clavicle.shapes = {capsule({0, 0.010, 0}, {0, 0.100, 0}, 0.026)};
 
-  // From the T-pose: x raises and lowers the arm, y turns it inward and outward, z carries it back and forward.
+  // From the T-pose: x raises and lowers the arm, y turns it inward and outward, z carries it back and forward. Outward
+  // a degree less than the tables' 90, where x and z would be one.
   Segment upper = part("left_upper_arm", "left_clavicle", {0, 0.114, 0}, {0, 0.186, 0}, 0.028);
-  ball(upper, "left_shoulder", -kZ, {degrees(-90, 90), degrees(-90, 70), degrees(-135, 45)});
+  ball(upper, "left_shoulder", -kZ, {degrees(-90, 90), degrees(-89, 70), degrees(-135, 45)});
   upper.shapes = {capsule({0, 0, 0}, {0, 0.186, 0}, 0.027)};
 
   Segment lower = part("left_lower_arm", "left_upper_arm", {0, 0.186, 0}, {0, 0.146, 0}, 0.016);

@@ -40,6 +40,8 @@ HWY_INLINE void measure_aim(const Term& term, const Placed<T>& segment, const Ba
   // A shift of the touch point turns the wanted direction by wanted x (-shift) / distance.
   const V3<T> shift_normal = cross(normal, wanted) * nearness, shift_across = cross(across, wanted) * nearness;
   const T root_side = root(side);
+  out.is_turn = out.tips = true;
+  out.tip = axis, out.tip_way = across * lever;
   const auto row = [&](const V3<T>& turn, const V3<T>& shift, const T& scale) {
     return Wrench<T>{(turn + cross(out.arm, shift)) * scale, shift * scale};
   };

@@ -20,6 +20,7 @@ template <class T>
 struct Stand {
   T error;                    // m outside; below 0: inside
   V3<T> way;                  // unit, level: straight out
+  T bend;                     // 1 / m, round a support; of an edge 0
   V3<T> arms[kMostSupports];  // of the supports, from their segments' centres
   T shares[kMostSupports];    // how much of the nearest edge's place is each support's
 };
@@ -36,7 +37,7 @@ Stand<T> stand(const Plan& plan, const Term& term, const Kinematics<T>& figure) 
             T(link.mass / plan.masses[static_cast<std::size_t>(term.figure)]);
   }
   Stand<T> out;
-  const auto n = static_cast<std::size_t>(std::min(term.supports, kMostSupports));
+  const auto n = std::min(static_cast<std::size_t>(term.supports), kMostSupports);
   V3<T> points[kMostSupports];
   for (std::size_t k = 0; k < n; ++k) {
     const Support& support = plan.supports[static_cast<std::size_t>(term.first_support) + k];
@@ -45,13 +46,14 @@ Stand<T> stand(const Plan& plan, const Term& term, const Kinematics<T>& figure) 
     points[k] = placed.centre + out.arms[k];
     out.shares[k] = zero;
   }
-  out.error = zero;
+  out.error = out.bend = zero;
   out.way = {zero, zero, zero};
   for (int i = 0; i < lanes_of<T>(); ++i) {  // the hull is another in every lane
     Ground ground[kMostSupports];
     for (std::size_t k = 0; k < n; ++k) ground[k] = {lane(points[k].x, i), lane(points[k].y, i)};
     const Footing f = footing({ground, n}, {lane(mass.x, i), lane(mass.y, i)}, term.margin);
     set_lane(out.error, i, f.outside);
+    set_lane(out.bend, i, f.round > 1e-9 ? 1.0 / f.round : 0.0);
     set_lane(out.way.x, i, f.way_x), set_lane(out.way.y, i, f.way_y);
     set_lane(out.shares[f.second], i, f.share);
     set_lane(out.shares[f.first], i, lane(out.shares[f.first], i) + 1.0 - f.share);
@@ -59,29 +61,41 @@ Stand<T> stand(const Plan& plan, const Term& term, const Kinematics<T>& figure) 
   return out;
 }
 
-template <class T>
-T pull_balance(const Plan& plan, const Term& term, const Kinematics<T>& figure, Newton<T>& newton) {
-  const Stand<T> at = stand(plan, term, figure);
-  const T zero(0.0), error = most(at.error - T(term.shift[0]), zero);
-  const T weight(term.weight), force = error * weight;
-  newton.add_tie(select(error > zero, weight, T(1e-300)));
-  const auto part = [&](int link, const V3<T>& arm, const T& share) {
-    const V3<T> shift = at.way * share;
-    const Wrench<T> row{cross(arm, shift), shift};
-    newton.load(link).slope += row * force;
-    newton.add_part(link, row);
-  };
+// What moves the centre of mass against its support.
+template <class T, class F>
+void add_parts(const Plan& plan, const Term& term, const Kinematics<T>& figure, const Stand<T>& at, F part) {
   for (std::size_t i = 0; i < plan.links.size(); ++i) {
     const Link& link = plan.links[i];
     if (link.mass <= 0.0 || link.figure != term.figure) continue;
     part(static_cast<int>(i), figure.placed(static_cast<int>(i)).rotation * V3<T>(link.mass_point),
          T(link.mass / plan.masses[static_cast<std::size_t>(term.figure)]));
   }
-  for (std::size_t k = 0; k < static_cast<std::size_t>(std::min(term.supports, kMostSupports)); ++k) {
+  for (std::size_t k = 0; k < std::min(static_cast<std::size_t>(term.supports), kMostSupports); ++k) {
     part(plan.supports[static_cast<std::size_t>(term.first_support) + k].link, at.arms[k], -at.shares[k]);
   }
+}
+
+template <class T>
+T pull_balance(const Plan& plan, const Term& term, const Kinematics<T>& figure, Newton<T>& newton) {
+  const Stand<T> at = stand(plan, term, figure);
+  const T zero(0.0), error = most(at.error - T(term.shift[0]), zero);
+  const T weight(term.weight), force = error * weight;
+  const auto add_row = [&](const V3<T>& way, const T& stiffness, const T& pull) {
+    newton.add_tie(stiffness);
+    add_parts(plan, term, figure, at, [&](int link, const V3<T>& arm, const T& share) {
+      const V3<T> shift = way * share;
+      const Wrench<T> row{cross(arm, shift), shift};
+      newton.load(link).slope += row * pull;
+      newton.load(link).add_second_order(arm, shift * pull);
+      newton.add_part(link, row);
+    });
+  };
+  const T little(1e-300);
+  add_row(at.way, select(error > zero, weight, little), force);
+  add_row({-at.way.y, at.way.x, zero}, most(force * at.bend, little), zero);
   return force * error;
 }
+
 }  // namespace posed::springs::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -14,7 +14,7 @@ double turn(const Ground& a, const Ground& b, const Ground& c) {
 // Indices counter-clockwise (Andrew's monotone chain). One or two of them where all points lie on a line.
 int hull(std::span<const Ground> points, std::array<int, 2 * kMostSupports>& out) {
   std::array<int, kMostSupports> order{};
-  const int n = std::min(static_cast<int>(points.size()), kMostSupports);
+  const int n = static_cast<int>(std::min(points.size(), kMostSupports));
   for (int i = 0; i < n; ++i) order[static_cast<std::size_t>(i)] = i;
   const auto at = [&](int i) -> const Ground& { return points[static_cast<std::size_t>(i)]; };
   std::sort(order.begin(), order.begin() + n, [&](int a, int b) {
@@ -60,6 +60,7 @@ Footing footing(std::span<const Ground> supports, const Ground& mass, double mar
     nearest = distance;
     best.first = edge[static_cast<std::size_t>(k)], best.second = edge[static_cast<std::size_t>((k + 1) % n)];
     best.share = share;
+    best.round = share == 0.0 || share == 1.0 ? distance : 0.0;
     if (distance > 1e-12) {
       best.way_x = dx / distance, best.way_y = dy / distance;
     } else if (length2 > 0.0) {

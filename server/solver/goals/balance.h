@@ -10,7 +10,7 @@ struct Ground {
 };
 
 // At most this many support points count.
-inline constexpr int kMostSupports = 16;
+inline constexpr std::size_t kMostSupports = 16;
 
 struct Footing {
   double outside = 0.0;             // m; below 0: how far inside
@@ -18,6 +18,7 @@ struct Footing {
   // The nearest part of the edge lies between these two supports: (1 - share) first + share second.
   int first = 0, second = 0;
   double share = 0.0;
+  double round = 0.0;  // m, to a support that is the nearest part by itself; 0: an edge is
 };
 
 // How far `mass` stands outside the convex hull of `supports` (1 to kMostSupports) after its edge has moved in by

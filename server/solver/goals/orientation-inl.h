@@ -55,6 +55,13 @@ HWY_INLINE void measure_orientation(const Term& term, const Placed<T>& segment, 
   const V3<T>& v = r.vector;
   const T vv = dot(v, v);
   out.arm = {zero, zero, zero};
+  // Across the vector the rows' square is (a / sin a)^2, with a half the angle; the Hessian is a / tan a.
+  out.is_turn = true;
+  out.excess = select(r.angle > small,
+                      half_angle * (half_angle / most(half_sine, small * T(0.5)) - half_cosine) /
+                          most(half_sine, small * T(0.5)),
+                      zero) *
+               lever * lever;
   const V3<T> unit[3] = {{one, zero, zero}, {zero, one, zero}, {zero, zero, one}};
   const T part[3] = {v.x, v.y, v.z};
   for (int i = 0; i < 3; ++i) {

@@ -14,7 +14,8 @@ namespace posed::springs::HWY_NAMESPACE {
 template <class T>
 HWY_INLINE void measure_position(const Term& term, const Placed<T>& segment, const Base<T>& base, Errors<T>& out) {
   out.arm = segment.rotation * V3<T>(term.point);
-  out.is_force = true;
+  out.is_force = out.meets = true;
+  out.base_arm = base.arm(term.place);
   const V3<T> miss = segment.centre + out.arm - base.point(term.place);
   const T zero(0.0), one(1.0);
   out.add_along(miss.x, {one, zero, zero});

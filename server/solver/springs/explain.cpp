@@ -64,11 +64,12 @@ double Explainer::explain(const Plan& plan, std::span<const SpringGoal> goals,
   double scale = 0.0, most = 0.0;
   for (std::size_t g = 0; g < goals.size(); ++g) {
     for (std::size_t j = 0; j < dofs_; ++j) total_[j] += slope(g)[j];
-    scale = std::max(scale, length(slope(g)));
+    // At the nearest that it can come a goal alone has no slope left: it is its pull that counts.
+    scale = std::max({scale, length(slope(g)), kNoPull * std::sqrt(goals[g].weight * costs_[g])});
   }
-  for (std::size_t j = 0; j < dofs_; ++j) bounds_[j] = probe_.held(plan, state, j, total_[j]);
+  for (std::size_t j = 0; j < dofs_; ++j) bounds_[j] = probe_.held(plan, state, j, total_);
   for (const Link& link : plan.links) {
-    for (auto j = static_cast<std::size_t>(link.dof); j < static_cast<std::size_t>(link.dof + link.dofs); ++j) {
+    for (std::size_t j = link.first_dof(); j < link.end_dof(); ++j) {
       if (bounds_[j] == Probe::Bound::none && !link.pinned) most = std::max(most, std::abs(total_[j]));
     }
   }
@@ -142,7 +143,7 @@ void Explainer::report_posture(const Plan& plan, const State& state, const Postu
   double square = 0.0;
   for (const int joint : posture.joints) {
     const Link& link = plan.links[static_cast<std::size_t>(link_of_segment[static_cast<std::size_t>(joint)])];
-    const auto first = static_cast<std::size_t>(link.dof), end = static_cast<std::size_t>(link.dof + link.dofs);
+    const std::size_t first = link.first_dof(), end = link.end_dof();
     double here = 0.0, off = 0.0;
     for (std::size_t j = first; j < end; ++j) {
       const double weight = plan.springs[j].weight;
@@ -209,7 +210,7 @@ void Explainer::name_causes(const Plan& plan, std::span<const SpringGoal> goals,
   // Limits that take a tenth of the pull or more.
   for (std::size_t i = 0; i < plan.links.size(); ++i) {
     const Link& link = plan.links[i];
-    for (std::size_t j = static_cast<std::size_t>(link.dof); j < static_cast<std::size_t>(link.dof + link.dofs); ++j) {
+    for (std::size_t j = link.first_dof(); j < link.end_dof(); ++j) {
       const Probe::Bound bound = bounds_[j];
       if (bound == Probe::Bound::none || mine[j] * total_[j] <= 0.0) continue;
       if (std::abs(mine[j]) < 0.1 * held_by_limits || causes.size() >= kMostCauses) continue;
@@ -232,8 +233,7 @@ void Explainer::name_causes(const Plan& plan, std::span<const SpringGoal> goals,
       // A root that is pinned whole stands still, so that its pin shows no pull of its own.
       for (const Link& link : plan.links) {
         if (!link.pinned || link.figure != goals[g].figure) continue;
-        for (auto j = static_cast<std::size_t>(link.dof); j < static_cast<std::size_t>(link.dof + link.dofs); ++j)
-          product -= mine[j] * mine[j];
+        for (std::size_t j = link.first_dof(); j < link.end_dof(); ++j) product -= mine[j] * mine[j];
       }
     }
     if (product < 0.0) pulls_.push_back({g, -product});

@@ -26,7 +26,7 @@ class Explainer {
   //   unreachable  it pulls, and no degree of freedom that is free to follow feels it
   //   limited      more of its pull is held by limits than by the other goals
   //   balanced     else
-  // Returns the greatest slope of a free degree of freedom over the sum of the goals' slopes there: 0 in perfect
+  // Returns the greatest slope of a free degree of freedom over that of the goal that pulls the most: 0 in perfect
   // balance.
   double explain(const Plan& plan, std::span<const SpringGoal> goals,
                  const std::vector<std::vector<int>>& link_of_segment, const State& state,

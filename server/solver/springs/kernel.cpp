@@ -4,10 +4,9 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "server/solver/springs/kernel.cpp"
-// Three are enough for x86-64: what all have, AVX2 and AVX-512.
-#define HWY_DISABLED_TARGETS (HWY_AVX3_DL | HWY_SSE4)
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include "server/solver/springs/descent-inl.h"
+#include "server/solver/springs/targets.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace posed::springs::HWY_NAMESPACE {
@@ -35,8 +34,8 @@ class KernelHere final : public Kernel {
     std::size_t ties = 0, parts = 0;
     for (const Term& term : plan.terms) {
       if (term.kind == TermKind::balance) {
-        ties += 1;
-        parts += plan.links.size() + static_cast<std::size_t>(term.supports);
+        ties += 2;
+        parts += 2 * (plan.links.size() + static_cast<std::size_t>(term.supports));
       } else if (term.base >= 0) {
         ties += 3;
         parts += 6;

@@ -77,6 +77,8 @@ class Kinematics {
       swinging.see(link, {more[0], more[1], more[2]});
       axes_[first] = r * swinging.turn_out, axes_[first + 1] = r * swinging.turn_along;
       axes_[first + 2] = r * swinging.direction;
+      swinging.bend_out = r * swinging.bend_out, swinging.bend_both = r * swinging.bend_both;
+      swinging.bend_along = r * swinging.bend_along;
       r = r * (swinging.rotation * about(V3<T>(link.limb), sine_[first + 2], cosine_[first + 2]));
     } else {
       for (std::size_t j = first; j < first + static_cast<std::size_t>(link.dofs); ++j)

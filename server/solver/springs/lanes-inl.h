@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <type_traits>
 
 #include <hwy/contrib/math/math-inl.h>
 #include <hwy/highway.h>
@@ -25,8 +26,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 inline constexpr int kLanes = 8;
 using Tag = hn::CappedTag<double, kLanes>;
-inline constexpr int kWidth = HWY_LANES(double) < kLanes ? HWY_LANES(double) : kLanes;
-inline constexpr int kParts = kLanes / kWidth;
+inline constexpr std::size_t kWidth = HWY_LANES(double) < kLanes ? HWY_LANES(double) : kLanes;
+inline constexpr std::size_t kParts = kLanes / kWidth;
 
 struct LanesMask {
   hn::Mask<Tag> part[kParts];
@@ -42,11 +43,11 @@ struct alignas(kWidth * sizeof(double)) Lanes {
   }
 };
 
-#define POSED_LANES_BINARY(name, operation)                                           \
-  HWY_INLINE Lanes name(const Lanes& a, const Lanes& b) {                             \
-    Lanes r;                                                                          \
-    for (int k = 0; k < kParts; ++k) r.part[k] = hn::operation(a.part[k], b.part[k]); \
-    return r;                                                                         \
+#define POSED_LANES_BINARY(name, operation)                                                   \
+  HWY_INLINE Lanes name(const Lanes& a, const Lanes& b) {                                     \
+    Lanes r;                                                                                  \
+    for (std::size_t k = 0; k < kParts; ++k) r.part[k] = hn::operation(a.part[k], b.part[k]); \
+    return r;                                                                                 \
   }
 POSED_LANES_BINARY(operator+, Add)
 POSED_LANES_BINARY(operator-, Sub)
@@ -56,11 +57,11 @@ POSED_LANES_BINARY(least, Min)
 POSED_LANES_BINARY(most, Max)
 #undef POSED_LANES_BINARY
 
-#define POSED_LANES_COMPARE(name, operation)                                          \
-  HWY_INLINE LanesMask name(const Lanes& a, const Lanes& b) {                         \
-    LanesMask r;                                                                      \
-    for (int k = 0; k < kParts; ++k) r.part[k] = hn::operation(a.part[k], b.part[k]); \
-    return r;                                                                         \
+#define POSED_LANES_COMPARE(name, operation)                                                  \
+  HWY_INLINE LanesMask name(const Lanes& a, const Lanes& b) {                                 \
+    LanesMask r;                                                                              \
+    for (std::size_t k = 0; k < kParts; ++k) r.part[k] = hn::operation(a.part[k], b.part[k]); \
+    return r;                                                                                 \
   }
 POSED_LANES_COMPARE(operator<, Lt)
 POSED_LANES_COMPARE(operator>, Gt)
@@ -68,11 +69,11 @@ POSED_LANES_COMPARE(operator<=, Le)
 POSED_LANES_COMPARE(operator>=, Ge)
 #undef POSED_LANES_COMPARE
 
-#define POSED_LANES_LOGIC(name, operation)                                            \
-  HWY_INLINE LanesMask name(const LanesMask& a, const LanesMask& b) {                 \
-    LanesMask r;                                                                      \
-    for (int k = 0; k < kParts; ++k) r.part[k] = hn::operation(a.part[k], b.part[k]); \
-    return r;                                                                         \
+#define POSED_LANES_LOGIC(name, operation)                                                    \
+  HWY_INLINE LanesMask name(const LanesMask& a, const LanesMask& b) {                         \
+    LanesMask r;                                                                              \
+    for (std::size_t k = 0; k < kParts; ++k) r.part[k] = hn::operation(a.part[k], b.part[k]); \
+    return r;                                                                                 \
   }
 POSED_LANES_LOGIC(operator&, And)
 POSED_LANES_LOGIC(operator|, Or)
@@ -80,27 +81,27 @@ POSED_LANES_LOGIC(operator|, Or)
 
 HWY_INLINE LanesMask operator!(const LanesMask& a) {
   LanesMask r;
-  for (int k = 0; k < kParts; ++k) r.part[k] = hn::Not(a.part[k]);
+  for (std::size_t k = 0; k < kParts; ++k) r.part[k] = hn::Not(a.part[k]);
   return r;
 }
 HWY_INLINE Lanes operator-(const Lanes& a) {
   Lanes r;
-  for (int k = 0; k < kParts; ++k) r.part[k] = hn::Neg(a.part[k]);
+  for (std::size_t k = 0; k < kParts; ++k) r.part[k] = hn::Neg(a.part[k]);
   return r;
 }
 HWY_INLINE Lanes root(const Lanes& a) {
   Lanes r;
-  for (int k = 0; k < kParts; ++k) r.part[k] = hn::Sqrt(a.part[k]);
+  for (std::size_t k = 0; k < kParts; ++k) r.part[k] = hn::Sqrt(a.part[k]);
   return r;
 }
 HWY_INLINE Lanes magnitude(const Lanes& a) {
   Lanes r;
-  for (int k = 0; k < kParts; ++k) r.part[k] = hn::Abs(a.part[k]);
+  for (std::size_t k = 0; k < kParts; ++k) r.part[k] = hn::Abs(a.part[k]);
   return r;
 }
 HWY_INLINE Lanes select(const LanesMask& mask, const Lanes& yes, const Lanes& no) {
   Lanes r;
-  for (int k = 0; k < kParts; ++k) r.part[k] = hn::IfThenElse(mask.part[k], yes.part[k], no.part[k]);
+  for (std::size_t k = 0; k < kParts; ++k) r.part[k] = hn::IfThenElse(mask.part[k], yes.part[k], no.part[k]);
   return r;
 }
 HWY_INLINE bool any(const LanesMask& a) {
@@ -142,7 +143,7 @@ using Mask = typename MaskOf<T>::type;
 // Lane `i` of one value.
 HWY_INLINE double lane(const Lanes& a, int i) {
   alignas(64) double values[kLanes];
-  for (int k = 0; k < kParts; ++k) hn::Store(a.part[k], Tag(), values + k * kWidth);
+  for (std::size_t k = 0; k < kParts; ++k) hn::Store(a.part[k], Tag(), values + k * kWidth);
   return values[i];
 }
 HWY_INLINE double lane(double a, int) {
@@ -150,9 +151,9 @@ HWY_INLINE double lane(double a, int) {
 }
 HWY_INLINE void set_lane(Lanes& a, int i, double value) {
   alignas(64) double values[kLanes];
-  for (int k = 0; k < kParts; ++k) hn::Store(a.part[k], Tag(), values + k * kWidth);
+  for (std::size_t k = 0; k < kParts; ++k) hn::Store(a.part[k], Tag(), values + k * kWidth);
   values[i] = value;
-  for (int k = 0; k < kParts; ++k) a.part[k] = hn::Load(Tag(), values + k * kWidth);
+  for (std::size_t k = 0; k < kParts; ++k) a.part[k] = hn::Load(Tag(), values + k * kWidth);
 }
 HWY_INLINE void set_lane(double& a, int, double value) {
   a = value;
@@ -160,19 +161,20 @@ HWY_INLINE void set_lane(double& a, int, double value) {
 
 template <class T>
 constexpr int lanes_of() {
-  return sizeof(T) / sizeof(double);
+  return std::is_same_v<T, Lanes> ? kLanes : 1;
 }
 
 HWY_INLINE Lanes arc_tangent(const Lanes& a) {
   Lanes r;
-  for (int k = 0; k < kParts; ++k) r.part[k] = hn::Atan(Tag(), a.part[k]);
+  for (std::size_t k = 0; k < kParts; ++k) r.part[k] = hn::Atan(Tag(), a.part[k]);
   return r;
 }
 HWY_INLINE double arc_tangent(double a) {
   return std::atan(a);
 }
 HWY_INLINE void sine_and_cosine(const Lanes& a, Lanes& sine, Lanes& cosine) {
-  for (int k = 0; k < kParts; ++k) sine.part[k] = hn::Sin(Tag(), a.part[k]), cosine.part[k] = hn::Cos(Tag(), a.part[k]);
+  for (std::size_t k = 0; k < kParts; ++k)
+    sine.part[k] = hn::Sin(Tag(), a.part[k]), cosine.part[k] = hn::Cos(Tag(), a.part[k]);
 }
 HWY_INLINE void sine_and_cosine(double a, double& sine, double& cosine) {
   sine = std::sin(a), cosine = std::cos(a);
@@ -185,7 +187,7 @@ HWY_INLINE void sines(const T* angles, std::size_t n, T* sine, T* cosine) {
   const double* in = reinterpret_cast<const double*>(angles);
   double* s = reinterpret_cast<double*>(sine);
   double* c = reinterpret_cast<double*>(cosine);
-  for (std::size_t i = 0; i < n * (sizeof(T) / sizeof(double)); i += kWidth) {
+  for (std::size_t i = 0; i < n * static_cast<std::size_t>(lanes_of<T>()); i += kWidth) {
     const auto x = hn::LoadU(d, in + i);
     hn::StoreU(hn::Sin(d, x), d, s + i);
     hn::StoreU(hn::Cos(d, x), d, c + i);

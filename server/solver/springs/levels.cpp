@@ -1,7 +1,9 @@
 // Goals in their order of priority: those of lower numbers are met first, and the later ones may move them no more.
 //
-// A level that has been balanced is held by the method of multipliers: stiff springs that pull not to the goals but to
-// the errors that were left, shifted until they stay there. So each level is a balance of springs like any other.
+// A level that has been balanced is held by the method of multipliers. Its springs grow stiffer, all by the same
+// factor: so their forces stay in balance, and where a limb is stretched towards what it cannot reach they keep it so.
+// What they give way under the next level's pull is then made up for by shifting them (springs::Term::shift), until
+// they are back where they were.
 #include <algorithm>
 #include <cmath>
 
@@ -14,9 +16,12 @@ using springs::Term;
 
 namespace {
 
-constexpr double kStiff = 1e4;       // against the heaviest goal of the level
+constexpr double kStiff = 1e3;  // the heaviest goal of a level against the heaviest of the next
+// Where a limb is stretched to its end, shifts alone do not bring it back: it takes more stiffness, in steps.
+constexpr double kStiffer = 10.0, kSlow = 0.25;
+constexpr int kStiffenings = 2;
 constexpr double kHeldPlace = 1e-8;  // m
-constexpr int kRounds = 6;
+constexpr int kRounds = 12;
 
 }  // namespace
 
@@ -24,30 +29,39 @@ void SpringSolver::balance_levels(std::span<const SpringGoal> goals, const Sprin
                                   const Stop& should_stop, SolveReport& report) {
   const auto level_of = [&](const Term& term) { return goals[static_cast<std::size_t>(term.goal)].priority; };
   SpringOptions now = options;
+  double before = 0.0;  // the heaviest goal of the level before
+  for (Term& term : plan_.terms) term.weight = 0.0;
   for (const int level : levels_) {
     set_springs(goals, &level);
-    double heaviest = 0.0;
+    double heaviest = 1e-6;
     for (const SpringGoal& goal : goals) {
       if (goal.priority == level && pulls(goal)) heaviest = std::max(heaviest, goal.weight);
     }
-    for (const Term& term : terms_) {
-      if (level_of(term) == level) heaviest = std::max(heaviest, term.weight);
-    }
-    bool holds = false;
     for (std::size_t i = 0; i < terms_.size(); ++i) {
-      Term& term = plan_.terms[i];
-      const int own = level_of(terms_[i]);
-      term.weight = own > level ? 0.0 : terms_[i].weight;
-      if (own >= level || terms_[i].weight <= 0.0) continue;
-      holds = true;
-      term.weight = kStiff * std::max(heaviest, 1e-6);
-      // What was left; an inequality that was met has room.
-      for (std::size_t k = 0; k < 3; ++k) term.shift[k] = counted(terms_[i].sense, held_[i].left[k]);
+      if (level_of(terms_[i]) == level)
+        plan_.terms[i].weight = terms_[i].weight;
+      else
+        plan_.terms[i].weight *= before > 0.0 ? kStiff * heaviest / before : 0.0;
     }
+    const bool holds = before > 0.0;
+    before = heaviest;
+    double last = 0.0;
+    int stiffenings = 0;
     for (int round = 0; round < kRounds; ++round) {
-      balance(now, should_stop, report);
+      if (round == 0)
+        balance(now, should_stop, report);
+      else
+        descend(tuning(now), should_stop, report);
       now.cold = now.explore = false;
-      if (!holds || report.status == SolveStatus::deadline || !shift_held(goals, level)) break;
+      if (!holds || report.status == SolveStatus::deadline) break;
+      const double gave = shift_held(goals, level);
+      if (gave <= kHeldPlace) break;
+      if (round > 0 && gave > kSlow * last && stiffenings++ < kStiffenings) {
+        for (std::size_t i = 0; i < terms_.size(); ++i) {
+          if (level_of(terms_[i]) < level) plan_.terms[i].weight *= kStiffer;
+        }
+      }
+      last = gave;
     }
     // What this level could not meet is what the next must keep.
     explainer_->probe().place(plan_, state_);
@@ -65,10 +79,10 @@ void SpringSolver::balance_levels(std::span<const SpringGoal> goals, const Sprin
   set_bounds(options);
 }
 
-// Moves the springs' rest by what they gave way. False where none did.
-bool SpringSolver::shift_held(std::span<const SpringGoal> goals, int level) {
+// Shifts the springs by what they gave way, m; returns the most.
+double SpringSolver::shift_held(std::span<const SpringGoal> goals, int level) {
   explainer_->probe().place(plan_, state_);
-  bool moved = false;
+  double most = 0.0;
   for (std::size_t i = 0; i < terms_.size(); ++i) {
     Term& term = plan_.terms[i];
     if (goals[static_cast<std::size_t>(term.goal)].priority >= level || terms_[i].weight <= 0.0) continue;
@@ -76,11 +90,12 @@ bool SpringSolver::shift_held(std::span<const SpringGoal> goals, int level) {
     for (std::size_t k = 0; k < static_cast<std::size_t>(errors.count); ++k) {
       const double left = counted(term.sense, held_[i].left[k]);
       const double gave = counted(term.sense, errors.error[k] - left);
-      if (std::abs(gave) > kHeldPlace) moved = true;
+      most = std::max(most, std::abs(gave));
+      // A one-sided spring that does not pull now has no shift to keep.
       term.shift[k] = left - counted(term.sense, errors.error[k] - term.shift[k]);
     }
   }
-  return moved;
+  return most;
 }
 
 }  // namespace posed

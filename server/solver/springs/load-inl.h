@@ -79,6 +79,19 @@ struct Load {
     moment.x += arm * force.x, moment.y += arm * force.y, moment.z += arm * force.z;
   }
 
+  // Of an error in the direction of an axis: `way` is the slope for its tip.
+  HWY_INLINE void add_second_order_tip(const V3<T>& tip, const V3<T>& way) {
+    moment.x += tip * way.x, moment.y += tip * way.y, moment.z += tip * way.z;
+  }
+  // Of an error in turn: two turns one after the other make a third half of the way across; less `excess` times
+  // torque's square about all that is across it.
+  HWY_INLINE void add_second_order_torque(const V3<T>& torque, const T& excess) {
+    const V3<T> half = torque * T(0.5), more = torque * excess;
+    moment.x += V3<T>{T(0.0), -half.z, half.y} + torque * more.x;
+    moment.y += V3<T>{half.z, T(0.0), -half.x} + torque * more.y;
+    moment.z += V3<T>{-half.y, half.x, T(0.0)} + torque * more.z;
+  }
+
   // What a turn of the joint about `axis` adds to the slope of all turns above it, and to its own: the exact terms of
   // second order. For d/dq_i d/dq_j with i above j they are axis_i . bend(axis_j).
   HWY_INLINE V3<T> bend(const V3<T>& axis) const { return moment * axis - axis * trace(); }
@@ -171,6 +184,17 @@ struct Load<double> {
     add_outer(moment, arm, force);
   }
 
+  // Of an error in the direction of an axis: `way` is the slope for its tip.
+  HWY_INLINE void add_second_order_tip(const V& tip, const V& way) { add_outer(moment, tip, way); }
+  // Of an error in turn: two turns one after the other make a third half of the way across; less `excess` times
+  // torque's square about all that is across it.
+  HWY_INLINE void add_second_order_torque(const V& torque, double excess) {
+    const V half = torque * 0.5, more = torque * excess;
+    moment.x += V{0.0, -half.z, half.y} + torque * more.x;
+    moment.y += V{half.z, 0.0, -half.x} + torque * more.y;
+    moment.z += V{-half.y, half.x, 0.0} + torque * more.z;
+  }
+
   HWY_INLINE double trace() const { return moment.x.x + moment.y.y + moment.z.z; }
 
   HWY_INLINE void times_turn(const V& axis, double newton, V& turn, V& shift) const {
@@ -242,7 +266,7 @@ template <class T>
 struct RootFactor {
   T l[6][6], inverse[6];
 
-  // Damping: of the shift (3) and the turn (3). Returns the least pivot.
+  // Damping: of the shift (3) and the turn (3). Returns how many pivots are not above 0.
   HWY_INLINE T factor(const Load<T>& load, const T (&damping)[6], const T& newton) {
     const M3<T>& m = load.moment;
     const T trace = load.trace(), half = newton * T(0.5);
@@ -261,10 +285,10 @@ struct RootFactor {
     a[3][3] = c.xx + damping[0];
     a[4][3] = c.xy, a[4][4] = c.yy + damping[1];
     a[5][3] = c.xz, a[5][4] = c.yz, a[5][5] = c.zz + damping[2];
-    T least_pivot = a[5][5];
+    T concave(0.0);
     POSED_UNROLL
     for (int k = 5; k >= 0; --k) {
-      least_pivot = least(least_pivot, a[k][k]);
+      concave = concave + select(a[k][k] > T(0.0), T(0.0), T(1.0));
       inverse[k] = T(1.0) / a[k][k];
       POSED_UNROLL
       for (int i = 0; i < k; ++i) l[k][i] = a[k][i] * inverse[k];
@@ -274,7 +298,7 @@ struct RootFactor {
         for (int j = 0; j <= i; ++j) a[i][j] = a[i][j] - a[k][i] * l[k][j];
       }
     }
-    return least_pivot;
+    return concave;
   }
 
   // The motion that undoes `slope`; adds to `gain` what the quadratic loses by it.

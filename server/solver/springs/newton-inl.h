@@ -54,29 +54,29 @@ class Newton {
 
   // Eliminates all joints. `damping` times a degree of freedom's effort is added to its pivot; `newton` is 1 where the
   // terms of second order count, else 0. False in a lane whose quadratic has no minimum. `gain` gets what the quadratic
-  // promises to lose (ties apart).
+  // promises to lose.
   Mask<T> factor(const Plan& plan, const Steps<T>& at, const Kinematics<T>& figure, const T& damping, bool by_effort,
                  const T& newton, T& gain) {
     if (!ties_.empty()) {
       for (std::size_t i = 0; i < loads_.size(); ++i) slopes_[i] = loads_[i].slope;
       raw_slopes_.copy(slopes_);
     }
-    T least_pivot(1.0);
+    T concave(0.0);
     gain = T(0.0);
     for (std::size_t i = plan.links.size(); i-- > 0;) {
       const Link& link = plan.links[i];
       Load<T>& load = loads_[i];
       if (link.kind == LinkKind::floating) {
-        factor_root(plan, link, damping, by_effort, newton, least_pivot, load, roots_[i]);
+        factor_root(plan, link, damping, by_effort, newton, concave, load, roots_[i]);
         motions_[i] = root_motion(plan, link, i, load.slope, gain);
         continue;
       }
       const auto first = static_cast<std::size_t>(link.dof);
       const auto out = [&]<int kDofs>(std::integral_constant<int, kDofs>, std::size_t from) HWY_ATTR {
-        take_out<kDofs>(plan, link, i, from, at, figure, damping, by_effort, newton, load, least_pivot, gain);
+        take_out<kDofs>(plan, link, i, from, at, figure, damping, by_effort, newton, load, concave, gain);
       };
       // One alone waits for each number, eight fill the processor (and its registers) as they are.
-      const int together = lanes_of<T>() == 1 ? link.dofs : 1;
+      const int together = lanes_of<T>() == 1 || link.kind == LinkKind::limb ? link.dofs : 1;
       if (together == 3) {
         out(std::integral_constant<int, 3>(), first);
       } else if (together == 2) {
@@ -88,8 +88,8 @@ class Newton {
         load.hand_down(figure.placed(static_cast<int>(i)).centre - figure.placed(link.parent).centre,
                        this->load(link.parent));
     }
-    if (!ties_.empty()) bring_in_ties(plan, figure);
-    return least_pivot > T(0.0);
+    if (!ties_.empty()) concave = concave - bring_in_ties(plan, figure, gain);
+    return (concave <= T(0.0)) & (concave >= T(0.0));
   }
 
   // From the roots to the leaves: each joint's share of the step, kept inside its bounds, so that those below it make
@@ -110,6 +110,7 @@ class Newton {
         T x = share(k, m);
         x = most(least(x, most_turn), -most_turn);
         x = most(least(x, T(plan.most[k]) - at.turns[k]), T(plan.least[k]) - at.turns[k]);
+        if (link.kind == LinkKind::limb) x = figure.swinging(i).within(j - link.dof, x);
         step.turns[k] = x;
         move(plan.dofs[k], figure.axis(k), x, m);
       }
@@ -135,10 +136,10 @@ class Newton {
   }
 
   HWY_INLINE void factor_root(const Plan& plan, const Link& link, const T& damping, bool by_effort, const T& newton,
-                              T& least_pivot, Load<T>& load, RootFactor<T>& root) {
+                              T& concave, Load<T>& load, RootFactor<T>& root) {
     T diagonal[6];
     for (int k = 0; k < 6; ++k) {
-      const auto dof = static_cast<std::size_t>(link.dof + k);
+      const std::size_t dof = link.first_dof() + static_cast<std::size_t>(k);
       diagonal[k] = damping * effort(plan, dof, by_effort);
       if (plan.sprung) diagonal[k] = diagonal[k] + T(plan.springs[dof].weight);
     }
@@ -146,7 +147,7 @@ class Newton {
       const T* s = &spring_slopes_[static_cast<std::size_t>(link.dof)];
       load.slope += {{s[3], s[4], s[5]}, {s[0], s[1], s[2]}};
     }
-    if (!link.pinned) least_pivot = least(least_pivot, root.factor(load, diagonal, newton));
+    if (!link.pinned) concave = concave + root.factor(load, diagonal, newton);
   }
 
   HWY_INLINE Wrench<T> root_motion(const Plan&, const Link& link, std::size_t i, const Wrench<T>& slope, T& gain) {
@@ -161,7 +162,7 @@ class Newton {
   template <int kDofs>
   HWY_INLINE void take_out(const Plan& plan, const Link& link, std::size_t i, std::size_t first, const Steps<T>& at,
                            const Kinematics<T>& figure, const T& damping, bool by_effort, const T& newton,
-                           Load<T>& load, T& least_pivot, T& gain) {
+                           Load<T>& load, T& concave, T& gain) {
     const T zero(0.0), one(1.0);
     const bool slides = kDofs == 1 && plan.dofs[first].kind == DofKind::along_axis;
     V3<T> u[kDofs], w[kDofs];
@@ -181,15 +182,28 @@ class Newton {
       }
       s[k][k] = s[k][k] + damping * effort(plan, first + k, by_effort);
       if (plan.sprung) {
-        s[k][k] = s[k][k] + T(plan.springs[first + k].weight);
+        if (link.kind != LinkKind::limb) s[k][k] = s[k][k] + T(plan.springs[first + k].weight);
         slope[k] = slope[k] + spring_slopes_[first + k];
+      }
+    }
+    if constexpr (kDofs == 3) {
+      if (link.kind == LinkKind::limb) {
+        // Its steps are not turns one after the other, and an edge that it is pressed against bends its way.
+        const Swinging<T>& limb = figure.swinging(i);
+        const V3<T> torque = load.slope.turn * newton;
+        if (plan.sprung) add_spring_of_limb(T(plan.springs[first].weight), figure, first, s);
+        const T pressed = select(limb.on_edge > zero, least(slope[0], zero), zero) * newton;
+        s[0][0] = s[0][0] + dot(torque, limb.bend_out);
+        s[0][1] = s[0][1] + dot(torque, limb.bend_both);
+        s[1][1] = s[1][1] + dot(torque, limb.bend_along) - pressed * limb.curvature;
       }
     }
     POSED_UNROLL
     for (std::size_t r = 0; r < kDofs; ++r) {
       const std::size_t k = kDofs - 1 - r;
-      least_pivot = least(least_pivot, s[k][k]);
-      const T inverse = select(is_pinned(plan, link, i, first + k, at, figure, slope[k]), zero, one / s[k][k]);
+      const Mask<T> pinned = is_pinned(plan, link, i, first + k, at, figure, slope[0], slope[k]);
+      concave = concave + select(s[k][k] > zero, zero, select(pinned, zero, one));
+      const T inverse = select(pinned, zero, one / s[k][k]);
       const T share = slope[k] * inverse;
       gain = gain + slope[k] * share;
       POSED_UNROLL
@@ -206,9 +220,21 @@ class Newton {
     }
   }
 
+  // A spring against a limb's turn: its degrees of freedom are not at right angles.
+  static HWY_INLINE void add_spring_of_limb(const T& weight, const Kinematics<T>& figure, std::size_t first,
+                                            T (&s)[3][3]) {
+    POSED_UNROLL
+    for (std::size_t k = 0; k < 3; ++k) {
+      POSED_UNROLL
+      for (std::size_t m = 0; m <= k; ++m)
+        s[m][k] = s[m][k] + weight * dot(figure.axis(first + m), figure.axis(first + k));
+    }
+  }
+
   // At a bound, and pushed against it.
   HWY_INLINE static Mask<T> is_pinned(const Plan& plan, const Link& link, std::size_t i, std::size_t j,
-                                      const Steps<T>& at, const Kinematics<T>& figure, const T& slope) {
+                                      const Steps<T>& at, const Kinematics<T>& figure, const T& slope_first,
+                                      const T& slope) {
     const T zero(0.0), near(kOnEdge);
     Mask<T> pinned = ((at.turns[j] >= T(plan.most[j]) - near) & (slope < zero)) |
                      ((at.turns[j] <= T(plan.least[j]) + near) & (slope > zero));
@@ -216,7 +242,7 @@ class Newton {
       const Swinging<T>& swinging = figure.swinging(i);
       const auto first = static_cast<std::size_t>(link.dof);
       if (j == first) pinned = pinned | ((swinging.on_edge > zero) & (slope < zero));
-      if (j == first + 1) pinned = pinned | (swinging.corner * slope < zero);
+      if (j == first + 1) pinned = pinned | swinging.in_corner(slope_first, slope);
     }
     return pinned;
   }
@@ -289,8 +315,9 @@ class Newton {
   }
 
   // (tree + sum of weight row row') step = -slope: the ties' own pulls y solve (1/weight + row tree^-1 row') y = row x,
-  // with x the step of the tree alone; then they are slopes like any other.
-  void bring_in_ties(const Plan& plan, const Kinematics<T>& figure) {
+  // with x the step of the tree alone; then they are slopes like any other. Returns how many directions in which the
+  // tree is concave are made convex by ties (Sylvester's law of inertia); takes from `gain` what they hold back.
+  T bring_in_ties(const Plan& plan, const Kinematics<T>& figure, T& gain) {
     const std::size_t n = ties_.size();
     slopes_.copy(raw_slopes_);
     respond(plan, figure, true);
@@ -302,17 +329,23 @@ class Newton {
       for (std::size_t a = 0; a < n; ++a) tie_matrix_[a * n + b] = -along(ties_[a]);
       tie_matrix_[b * n + b] = tie_matrix_[b * n + b] + T(1.0) / ties_[b].weight;
     }
-    solve_ties(n);
+    const T mended = solve_ties(n, gain);
     slopes_.copy(raw_slopes_);
     for (std::size_t a = 0; a < n; ++a) pull_at(ties_[a], tie_slopes_[a]);
     respond(plan, figure, true);
+    return mended;
   }
 
-  // Cholesky, in place. A matrix of Newton's may have no root there; the least pivot keeps it finite.
-  void solve_ties(std::size_t n) {
+  // L D L', in place. Returns how many pivots are below 0.
+  T solve_ties(std::size_t n, T& gain) {
+    const T zero(0.0), one(1.0), tiny(1e-30);
+    T below = zero;
     const auto m = [&](std::size_t a, std::size_t b) -> T& { return tie_matrix_[a * n + b]; };
     for (std::size_t k = 0; k < n; ++k) {
-      m(k, k) = T(1.0) / most(m(k, k), T(1e-30));
+      const T pivot = m(k, k);
+      below = below + select(pivot < zero, one, zero);
+      m(k, k) = one / select(magnitude(pivot) > tiny, pivot, tiny);
+      gain = gain - tie_slopes_[k] * tie_slopes_[k] * m(k, k);
       for (std::size_t a = k + 1; a < n; ++a) {
         const T l = m(a, k) * m(k, k);
         for (std::size_t b = k + 1; b <= a; ++b) m(a, b) = m(a, b) - l * m(b, k);
@@ -324,6 +357,7 @@ class Newton {
       for (std::size_t a = k + 1; a < n; ++a) sum = sum - m(a, k) * tie_slopes_[a];
       tie_slopes_[k] = sum * m(k, k);
     }
+    return below;
   }
 
   Memory<Load<T>> loads_;

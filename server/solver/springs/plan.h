@@ -43,6 +43,8 @@ struct Link {
   Quat rotation{1.0, 0.0, 0.0, 0.0};
   bool rotated = false;  // rotation is not the identity
   int dof = 0, dofs = 0;
+  std::size_t first_dof() const { return static_cast<std::size_t>(dof); }
+  std::size_t end_dof() const { return first_dof() + static_cast<std::size_t>(dofs); }
   int more = 0;         // ball, limb, floating: where its share of `more` begins
   bool pinned = false;  // does not move
   Vec3 mass_point{0.0, 0.0, 0.0};

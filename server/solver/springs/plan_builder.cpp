@@ -1,12 +1,11 @@
 #include "server/solver/springs/plan_builder.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
-#include "server/solver/ball_angles.h"
+#include "server/solver/springs/joint_angles.h"
 #include "server/solver/springs/swing.h"
 
 namespace posed::springs {
@@ -35,12 +34,6 @@ Dof about(const Vec3& axis) {
   dof.axis = axis;
   dof.z_to_axis = shortest_arc(kZ, axis, kX);
   return dof;
-}
-
-// The turn about `axis` that carries `from` to `to`, as far as it can.
-double angle_about(const Vec3& axis, const Vec3& from, const Vec3& to) {
-  const Vec3 f = from - axis * glm::dot(axis, from), t = to - axis * glm::dot(axis, to);
-  return std::atan2(glm::dot(axis, glm::cross(f, t)), glm::dot(f, t));
 }
 
 LinkKind kind_of(const Joint& joint) {
@@ -94,16 +87,6 @@ void set_limb(const Segment& segment, Link& link) {
   if (!joint.swing) return;
   link.swing = *joint.swing;
   if (link.swing.center == kZero) link.swing.center = link.limb;
-}
-
-// A turn that is out by whole turns is brought home.
-double home(const Dof& dof, double turn) {
-  const bool turns = dof.kind != DofKind::along_axis && dof.kind != DofKind::of_root;
-  return turns ? near_range(turn, {dof.min, dof.max}) : turn;
-}
-
-Quat swing_of(const Link& link, const Vec3& direction) {
-  return shortest_arc(link.limb, direction, perpendicular(link.limb, kX));
 }
 
 // The share of the body's mass that each joint moves; without masses, of its segments.
@@ -171,74 +154,12 @@ void add_figure(const BodyTree& tree, int figure, std::span<const char> active, 
   plan.spring_more.assign(plan.more, 0.0);
 }
 
-void read_q(const BodyTree& tree, int figure, const Plan& plan, std::span<const double> q, State& state) {
-  for (const Link& link : plan.links) {
-    if (link.figure != figure) continue;
-    const Joint& joint = tree.joint(link.segment);
-    const double* share = q.data() + tree.q_at(link.segment);
-    double* turns = state.turns.data() + link.dof;
-    double* more = state.more.data() + link.more;
-    const auto rotation = [&] { return quat_from_xyzw(std::span<const double>(share, 4)); };
-    if (link.kind == LinkKind::ball || link.kind == LinkKind::floating) {
-      std::copy_n(share, link.kind == LinkKind::ball ? 4 : 7, more);
-    } else if (link.kind == LinkKind::limb) {
-      const Vec3 d = rotation() * link.limb;
-      const Quat twist = glm::conjugate(swing_of(link, d)) * rotation();
-      double turn = 2.0 * std::atan2(glm::dot(Vec3(twist.x, twist.y, twist.z), link.limb), twist.w);
-      if (turn > M_PI) turn -= 2.0 * M_PI;
-      if (turn <= -M_PI) turn += 2.0 * M_PI;
-      more[0] = d.x, more[1] = d.y, more[2] = d.z, more[3] = 0.0;
-      turns[0] = turns[1] = 0.0, turns[2] = turn;
-    } else if (joint.type == JointType::universal) {
-      const Dof* dofs = plan.dofs.data() + link.dof;
-      turns[0] = home(dofs[0], angle_about(joint.axes[0], joint.axes[1], rotation() * joint.axes[1]));
-      turns[1] = home(dofs[1], angle_about(joint.axes[1], glm::conjugate(rotation()) * joint.axes[0], joint.axes[0]));
-    } else if (joint.type == JointType::ball) {
-      std::array<AngleRange, 3> ranges;
-      for (std::size_t k = 0; k < 3; ++k)
-        ranges[k] = {plan.dofs[at(link.dof) + k].min, plan.dofs[at(link.dof) + k].max};
-      const auto angles = ball_angles(rotation(), ranges);
-      std::copy(angles.begin(), angles.end(), turns);
-    } else if (link.dofs == 1) {
-      turns[0] = share[0];
-    }
-  }
-}
-
-void write_q(const BodyTree& tree, int figure, const Plan& plan, const State& state, std::span<double> q) {
-  for (const Link& link : plan.links) {
-    if (link.figure != figure) continue;
-    const Joint& joint = tree.joint(link.segment);
-    double* share = q.data() + tree.q_at(link.segment);
-    const double* turns = state.turns.data() + link.dof;
-    const double* more = state.more.data() + link.more;
-    const auto put = [](const Quat& r, double* to) {
-      const Quat before = quat_from_xyzw(std::span<const double>(to, 4));
-      const auto v = xyzw(same_sign(before, glm::normalize(r)));
-      std::copy(v.begin(), v.end(), to);
-    };
-    const auto quat = [&](int first) { return quat_from_xyzw(std::span<const double>(more + first, 4)); };
-    if (link.kind == LinkKind::floating) {
-      std::copy_n(more, 3, share);
-      put(quat(3), share + 3);
-    } else if (link.kind == LinkKind::ball) {
-      put(quat(0), share);
-    } else if (link.kind == LinkKind::limb) {
-      put(swing_of(link, {more[0], more[1], more[2]}) * quat_about(link.limb, turns[2]), share);
-    } else if (joint.type == JointType::universal) {
-      put(quat_about(joint.axes[0], turns[0]) * quat_about(joint.axes[1], turns[1]), share);
-    } else if (joint.type == JointType::ball) {
-      put(quat_about(kX, turns[0]) * quat_about(kY, turns[1]) * quat_about(kZ, turns[2]), share);
-    } else if (link.dofs == 1) {
-      share[0] = turns[0];
-    }
-  }
-}
-
 void confine(const Plan& plan, State& state) {
   for (const Link& link : plan.links) {
     for (std::size_t j = at(link.dof); j < at(link.dof + link.dofs); ++j) {
-      state.turns[j] = std::clamp(home(plan.dofs[j], state.turns[j]), plan.least[j], plan.most[j]);
+      double& turn = state.turns[j];
+      if (turn >= plan.least[j] && turn <= plan.most[j]) continue;
+      turn = std::clamp(home(plan.dofs[j], turn), plan.least[j], plan.most[j]);
     }
     if (link.kind != LinkKind::limb) continue;
     double* more = state.more.data() + link.more;

@@ -1,4 +1,4 @@
-// Lays the reach tree of figures out flat, and carries joint values to and from a solve's state.
+// Lays the reach tree of figures out flat.
 #pragma once
 
 #include <span>
@@ -16,12 +16,6 @@ void add_figure(const BodyTree& tree, int figure, std::span<const char> active, 
 
 // Where a segment's mass is thought to be: half way from its joint to its touch point.
 Vec3 mass_point(const Segment& segment);
-
-// Joint values of one figure -> its share of the state, whose arrays have their sizes. A quaternion that leaves the
-// axes of its joint comes to near angles; nothing is clamped.
-void read_q(const BodyTree& tree, int figure, const Plan& plan, std::span<const double> q, State& state);
-// And back. Values of links that are not in the plan stay. Quaternions keep the sign of those in q.
-void write_q(const BodyTree& tree, int figure, const Plan& plan, const State& state, std::span<double> q);
 
 // Brings every value inside its bounds, and every limb to where it may point.
 void confine(const Plan& plan, State& state);

@@ -33,7 +33,7 @@ void SpringSolver::set_springs(std::span<const SpringGoal> goals, const int* lev
       std::copy_n(posture->values.begin() + static_cast<std::ptrdiff_t>(next), size, q.begin() + tree.q_at(joint));
       next += size;
     }
-    springs::read_q(tree, goal.figure, plan_, q, posture_);
+    angles_.read(tree, goal.figure, plan_, q, posture_);
     const double lever = tree.document().lever;
     for (const int joint : posture->joints) {
       const springs::Link& link = plan_.links[at(link_of_segment_[at(goal.figure)][at(joint)])];
@@ -75,7 +75,7 @@ void SpringSolver::hold_to_start() {
   plan_.sprung = true;
   for (std::size_t f = 0; f < figures_.size(); ++f) {
     std::vector<double>& q = posture_q_[f];
-    springs::write_q(*figures_[f], static_cast<int>(f), plan_, start_, q);
+    angles_.write(*figures_[f], static_cast<int>(f), plan_, start_, q);
     for (const springs::Link& link : plan_.links) {
       if (link.figure != static_cast<int>(f)) continue;
       const bool held = link.dofs > 0 && own_sprung_ && own_springs_[at(link.dof)].weight > 0.0;

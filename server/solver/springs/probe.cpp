@@ -40,7 +40,7 @@ Probe::~Probe() = default;
 
 void Probe::prepare(const Plan& plan) {
   inside_->figure.resize(plan);
-  inside_->newton.resize(plan, 3, std::max<std::size_t>(6, plan.links.size() + plan.supports.size()));
+  inside_->newton.resize(plan, 3, std::max<std::size_t>(6, 2 * (plan.links.size() + plan.supports.size())));
   inside_->at.resize(plan);
   inside_->wrenches.resize(plan.links.size());
 }
@@ -63,7 +63,7 @@ TermErrors Probe::errors(const Plan& plan, const Term& term) const {
   here::Errors<double> errors;
   here::measure(term, inside_->figure.placed(term.link), base, errors);
   for (int k = 0; k < errors.count; ++k) {
-    if (k != errors.stiff_only) result.error[static_cast<std::size_t>(result.count++)] = errors.error[k];
+    if (k < errors.real) result.error[static_cast<std::size_t>(result.count++)] = errors.error[k];
   }
   return result;
 }
@@ -107,8 +107,9 @@ Vec3 Probe::centre_of_mass(const Plan& plan, int figure) const {
   return sum;
 }
 
-Probe::Bound Probe::held(const Plan& plan, const State& state, std::size_t dof, double slope) const {
+Probe::Bound Probe::held(const Plan& plan, const State& state, std::size_t dof, std::span<const double> slopes) const {
   constexpr double kNear = 1e-7;
+  const double slope = slopes[dof];
   if (slope < 0.0 && state.turns[dof] >= plan.most[dof] - kNear) return Bound::max;
   if (slope > 0.0 && state.turns[dof] <= plan.least[dof] + kNear) return Bound::min;
   for (std::size_t i = 0; i < plan.links.size(); ++i) {
@@ -117,7 +118,7 @@ Probe::Bound Probe::held(const Plan& plan, const State& state, std::size_t dof, 
     const auto& swinging = inside_->figure.swinging(i);
     const auto first = static_cast<std::size_t>(link.dof);
     if (dof == first && swinging.on_edge > 0.0 && slope < 0.0) return Bound::swing;
-    if (dof == first + 1 && swinging.corner * slope < 0.0) return Bound::swing;
+    if (dof == first + 1 && swinging.in_corner(slopes[first], slope)) return Bound::swing;
   }
   return Bound::none;
 }

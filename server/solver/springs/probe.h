@@ -33,9 +33,9 @@ class Probe {
   Transform link(int link) const;                 // world_from_segment
   Vec3 centre_of_mass(const Plan& plan, int figure) const;
 
-  // Of a degree of freedom: is it at a bound that keeps it from following -slope (the way down)?
+  // Of a degree of freedom: is it at a bound that keeps it from following -slope (the way down)? `slopes`: of all.
   enum class Bound { none, min, max, swing };
-  Bound held(const Plan& plan, const State& state, std::size_t dof, double slope) const;
+  Bound held(const Plan& plan, const State& state, std::size_t dof, std::span<const double> slopes) const;
 
  private:
   struct Inside;

@@ -39,11 +39,15 @@ HWY_INLINE void measure(const Term& term, const Placed<T>& segment, const Base<T
   }
 }
 
-// The part of an error that counts.
+// Of a turn against the world. `torque`: the slope of its cost.
 template <class T>
-HWY_INLINE T sensed(Sense sense, const T& error) {
-  const T zero(0.0);
-  return sense == Sense::equal ? error : sense == Sense::at_least ? least(error, zero) : most(error, zero);
+HWY_INLINE void add_second_order_turn(const Errors<T>& errors, const V3<T>& torque, const T& weight, Load<T>& load) {
+  if (errors.tips) {
+    load.add_second_order_tip(errors.tip, errors.tip_way * (errors.error[0] * weight));
+    return;
+  }
+  const T square = dot(torque, torque);
+  load.add_second_order_torque(torque, errors.excess * weight / most(square, T(1e-300)));
 }
 
 template <class T>
@@ -64,30 +68,35 @@ HWY_INLINE T pull_term(const Plan& plan, const Term& term, const Kinematics<T>& 
   Errors<T> errors;
   measure(term, segment, base, errors);
   T cost(0.0);
-  V3<T> pull{zero, zero, zero};
+  V3<T> pull{zero, zero, zero}, turn = pull;
   for (int i = 0; i < errors.count; ++i) {
-    const bool stiff_only = i == errors.stiff_only;
+    const bool stiff_only = i >= errors.real;
     const T error =
         stiff_only ? zero : sensed(term.sense, errors.error[i] - T(term.shift[static_cast<std::size_t>(i)]));
     const T force = error * weight;
     cost = cost + force * error;
     // An error that does not count is not stiff either.
-    const T stiffness = term.sense == Sense::equal ? weight : select(magnitude(error) > zero, weight, T(1e-300));
+    const T stiffness =
+        term.sense == Sense::equal || stiff_only ? weight : select(magnitude(error) > zero, weight, T(1e-300));
     const Wrench<T>& row = errors.row[i];
+    pull += row.shift * force;
+    turn += row.turn * force;
     if (term.base < 0) {
       load.add_row(row, force, stiffness);
-      pull += row.shift * force;
       continue;
     }
     const V3<T> apart = segment.centre - figure.placed(term.base).centre;
-    const Wrench<T> back{-(row.turn + cross(apart, row.shift)), -row.shift};
+    const V3<T> torque = errors.meets ? cross(errors.base_arm, row.shift) : row.turn + cross(apart, row.shift);
+    const Wrench<T> back{-torque, -row.shift};
     load.slope += row * force;
     newton.load(term.base).slope += back * force;
     newton.add_tie(stiffness);
     newton.add_part(term.link, row);
     newton.add_part(term.base, back);
   }
-  if (term.base < 0 && errors.is_force) load.add_second_order(errors.arm, pull);
+  if (errors.is_force && (term.base < 0 || errors.meets)) load.add_second_order(errors.arm, pull);
+  if (errors.meets) newton.load(term.base).add_second_order(errors.base_arm, -pull);
+  if (term.base < 0 && errors.is_turn) add_second_order_turn(errors, turn, weight, load);
   return cost;
 }
 

@@ -13,7 +13,6 @@
 namespace posed {
 
 using springs::State;
-using springs::Term;
 using springs::Tuning;
 
 namespace {
@@ -21,7 +20,10 @@ namespace {
 constexpr double kFar = 0.02;         // m, weighted RMS: a start from farther away takes the long way (go_far)
 constexpr double kReachedRms = 1e-3;  // m
 constexpr double kClearlyBetter = 0.7;
-constexpr double kOutside = 1e-10;  // rad or m beyond a limit that are a matter of rounding
+constexpr double kNoBound = 1e9;
+constexpr double kBalance = 1e-6, kNoBalance = 1e-5;  // SolveReport::balance_error
+constexpr double kReachedExactly = 1e-6;              // m, weighted RMS
+constexpr double kOutside = 1e-10;                    // rad or m beyond a limit that are a matter of rounding
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -90,6 +92,7 @@ SpringSolver::SpringSolver(std::vector<std::shared_ptr<const BodyTree>> figures)
     springs::add_figure(*figures_[f], static_cast<int>(f), all, whole_[f].plan, links);
     springs::resize(whole_[f].plan, whole_[f].state);
     springs::resize(whole_[f].plan, whole_[f].inside);
+    whole_[f].angles.resize(whole_[f].plan);
   }
 }
 
@@ -123,6 +126,7 @@ void SpringSolver::prepare(std::span<const SpringGoal> goals) {
   levels_.erase(std::unique(levels_.begin(), levels_.end()), levels_.end());
   plan_.terms = terms_;
   for (State* state : {&state_, &start_, &kept_, &origin_, &posture_}) springs::resize(plan_, *state);
+  angles_.resize(plan_);
   own_springs_ = plan_.springs;
   own_more_ = plan_.spring_more;
   posture_q_.clear();
@@ -144,7 +148,7 @@ void SpringSolver::solve(std::span<const SpringGoal> goals, const SpringOptions&
     assert(static_cast<int>(out.q[f].size()) == figures_[f]->q_size());
     normalise_quaternions(*figures_[f], out.q[f]);
     if (options.accuracy == 0.0) confine_all(f, out.q[f]);  // a stream's next start is an answer, and inside
-    springs::read_q(*figures_[f], static_cast<int>(f), plan_, out.q[f], state_);
+    angles_.read(*figures_[f], static_cast<int>(f), plan_, out.q[f], state_);
   }
   set_bounds(options);
   springs::confine(plan_, state_);
@@ -160,8 +164,9 @@ void SpringSolver::solve(std::span<const SpringGoal> goals, const SpringOptions&
       balance(options, should_stop, out.report);
   }
 
+  if (options.most_turn < kNoBound) hold_back(options);
   for (std::size_t f = 0; f < figures_.size(); ++f) {
-    springs::write_q(*figures_[f], static_cast<int>(f), plan_, state_, out.q[f]);
+    angles_.write(*figures_[f], static_cast<int>(f), plan_, state_, out.q[f]);
     out.world_from_segment[f].resize(at(figures_[f]->size()));
     forward_kinematics(*figures_[f], out.q[f], out.world_from_segment[f]);
   }
@@ -176,6 +181,16 @@ void SpringSolver::explain(std::span<const SpringGoal> goals, const SpringOption
   for (std::size_t j = 0; j < plan_.dofs.size(); ++j)
     plan_.least[j] = plan_.dofs[j].min, plan_.most[j] = plan_.dofs[j].max;
   out.report.balance_error = explainer_->explain(plan_, goals, link_of_segment_, state_, out.goals);
+  // Steps that gain nothing say little: the slopes say whether it is a balance. Of priorities and of what a stream's
+  // bound holds back they do not.
+  SolveStatus& status = out.report.status;
+  if (status != SolveStatus::deadline && levels_.size() == 1 && options.most_turn >= kNoBound &&
+      options.accuracy == 0.0) {
+    if (out.report.balance_error < kBalance || cost_ < weights() * kReachedExactly * kReachedExactly)
+      status = SolveStatus::converged;
+    else if (out.report.balance_error > kNoBalance)
+      status = SolveStatus::stalled;
+  }
   out.report.cost = 0.0;
   for (std::size_t g = 0; g < goals.size(); ++g) out.report.cost += explainer_->cost(g);
 }
@@ -184,7 +199,7 @@ void SpringSolver::explain(std::span<const SpringGoal> goals, const SpringOption
 void SpringSolver::confine_all(std::size_t figure, std::span<double> q) {
   Whole& whole = whole_[figure];
   const int index = static_cast<int>(figure);
-  springs::read_q(*figures_[figure], index, whole.plan, q, whole.state);
+  whole.angles.read(*figures_[figure], index, whole.plan, q, whole.state);
   copy(whole.state, whole.inside);
   springs::confine(whole.plan, whole.inside);
   for (std::size_t k = 0; k < whole.plan.dofs.size(); ++k) {
@@ -195,8 +210,9 @@ void SpringSolver::confine_all(std::size_t figure, std::span<double> q) {
   }
 }
 
-void SpringSolver::write_whole(std::size_t figure, std::span<double> q) const {
-  springs::write_q(*figures_[figure], static_cast<int>(figure), whole_[figure].plan, whole_[figure].inside, q);
+void SpringSolver::write_whole(std::size_t figure, std::span<double> q) {
+  Whole& whole = whole_[figure];
+  whole.angles.write(*figures_[figure], static_cast<int>(figure), whole.plan, whole.inside, q);
 }
 
 // A stream's bound on the joints' speed is a bound like any other.
@@ -204,11 +220,21 @@ void SpringSolver::set_bounds(const SpringOptions& options) {
   for (std::size_t j = 0; j < plan_.dofs.size(); ++j) {
     const springs::Dof& dof = plan_.dofs[j];
     plan_.least[j] = dof.min, plan_.most[j] = dof.max;
-    if (dof.kind == springs::DofKind::of_root) continue;
+    if (dof.kind == springs::DofKind::of_root || options.most_turn >= kNoBound) continue;
     const double turn = std::clamp(state_.turns[j], dof.min, dof.max);
     plan_.least[j] = std::max(dof.min, turn - options.most_turn);
     plan_.most[j] = std::min(dof.max, turn + options.most_turn);
   }
+}
+
+// Balls and limbs have no bounds of their own: they are turned back along their way.
+void SpringSolver::hold_back(const SpringOptions& options) {
+  bool held = false;
+  for (const springs::Link& link : plan_.links) held |= springs::hold_back(link, start_, options.most_turn, state_);
+  if (!held) return;
+  Tuning as_it_is;
+  as_it_is.iterations = 1;
+  cost_ = kernel_->descend(plan_, as_it_is, {}, state_).cost;
 }
 
 void SpringSolver::set_terms(std::span<const SpringGoal> goals) {

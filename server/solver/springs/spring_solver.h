@@ -13,6 +13,7 @@
 #include "common/pose.h"
 #include "server/solver/body_tree.h"
 #include "server/solver/spring_goal.h"
+#include "server/solver/springs/joint_angles.h"
 #include "server/solver/springs/kernel.h"
 #include "server/solver/springs/plan.h"
 
@@ -81,12 +82,14 @@ class SpringSolver {
   struct Whole {  // a figure with all its joints
     springs::Plan plan;
     springs::State state, inside;
+    springs::JointAngles angles;
   };
 
   // What a solve is given.
   void confine_all(std::size_t figure, std::span<double> q);
-  void write_whole(std::size_t figure, std::span<double> q) const;
+  void write_whole(std::size_t figure, std::span<double> q);
   void set_bounds(const SpringOptions& options);
+  void hold_back(const SpringOptions& options);
   void set_terms(std::span<const SpringGoal> goals);
   void pin_roots(std::span<const SpringGoal> goals);
   void set_springs(std::span<const SpringGoal> goals, const int* level = nullptr);  // null: of all levels
@@ -100,7 +103,7 @@ class SpringSolver {
   // Ways to the balance, from state_ to state_.
   void balance_levels(std::span<const SpringGoal> goals, const SpringOptions& options, const Stop& should_stop,
                       SolveReport& report);
-  bool shift_held(std::span<const SpringGoal> goals, int level);
+  double shift_held(std::span<const SpringGoal> goals, int level);
   void balance(const SpringOptions& options, const Stop& should_stop, SolveReport& report);
   void go_far(const SpringOptions& options, const Stop& should_stop, SolveReport& report);
   void search(const SpringOptions& options, const Stop& should_stop, SolveReport& report);
@@ -122,6 +125,7 @@ class SpringSolver {
   std::vector<Held> held_;                         // one a term
   std::vector<springs::State> starts_, lanes_;
   springs::State state_, start_, kept_, origin_, posture_;
+  springs::JointAngles angles_;
   std::vector<std::vector<double>> posture_q_;
   std::vector<springs::Spring1> own_springs_;  // of posture goals, while the start pose holds
   std::vector<double> own_more_;

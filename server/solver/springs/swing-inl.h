@@ -40,7 +40,9 @@ struct OnEllipse {
     const V3<T> side = d - c * cosine;
     const T sine = root(dot(side, side));
     const T least_sine(1e-12);
-    angle = T(2.0) * arc_tangent(sine / most(T(1.0) + cosine, least_sine));
+    // Straight ahead and straight behind have no side.
+    const T ahead_or_behind = select(cosine < T(0.0), T(M_PI), T(0.0));
+    angle = select(sine > least_sine, T(2.0) * arc_tangent(sine / most(T(1.0) + cosine, T(1e-300))), ahead_or_behind);
     radial = select(sine > least_sine, side * (T(1.0) / most(sine, least_sine)), t0);
     ratio = select(sine > T(1e-6), angle / most(sine, least_sine), T(1.0));
     across[0] = dot(radial, t0) * angle * T(1.0 / swing.radii[0]);
@@ -49,14 +51,15 @@ struct OnEllipse {
     first_ = t0, second_ = t1;
   }
 
-  // The unit tangent at d that points straight out.
-  HWY_INLINE V3<T> outward(const Swing& swing, const V3<T>& d) const {
+  // The unit tangent at d that points straight out. `room`: how far it is to the edge that way, rad (nearly).
+  HWY_INLINE V3<T> outward(const Swing& swing, const V3<T>& d, T& room) const {
     const V3<T> slope =
         first_ * (across[0] * T(1.0 / swing.radii[0])) + second_ * (across[1] * T(1.0 / swing.radii[1]));
     const V3<T> c(swing.center), tangent = cross(c, radial);
     const V3<T> radial_there = cross(tangent, d);  // the same way, at d
     const V3<T> out = radial_there * dot(slope, radial) + tangent * (dot(slope, tangent) * ratio);
-    const T length = root(dot(out, out));
+    const T length = root(dot(out, out)), middle = root(level);
+    room = select(length > T(1e-12), (T(1.0) - middle) * middle / most(length, T(1e-300)), T(1.0));
     return select(length > T(1e-12), out * (T(1.0) / most(length, T(1e-300))), radial_there);
   }
 
@@ -66,12 +69,18 @@ struct OnEllipse {
 
 template <class T>
 struct Swinging {
-  V3<T> direction;             // of the limb
-  M3<T> rotation;              // the shortest arc from its rest
-  V3<T> out, along;            // unit tangents: away from where it may point, and along the edge
-  V3<T> turn_out, turn_along;  // turns that move it so, and keep its twist
-  T on_edge;                   // 1: a step out is barred
-  T corner;                    // 1 and -1: a step along, or back along, is barred
+  V3<T> direction;                  // of the limb
+  M3<T> rotation;                   // the shortest arc from its rest
+  V3<T> out, along;                 // unit tangents: away from where it may point, and along the edge
+  V3<T> turn_out, turn_along;       // turns that move it so, and keep its twist
+  T on_edge;                        // 1: a step out is barred
+  T room;                           // how far a step out may go
+  T back, ahead;                    // on the edge: how far a step along may go, to the corners
+  T round_back[2], round_ahead[2];  // at a corner: the way on along the next edge, its parts out and along
+  T curvature;                      // of the edge: a step s along is one of -curvature s^2 / 2 out
+  // What a step x out and y along adds to the turn in second order, beyond one step after the other:
+  // (bend_out x^2 + 2 bend_both x y + bend_along y^2) / 2.
+  V3<T> bend_out, bend_both, bend_along;
 
   HWY_INLINE void see(const Link& link, const V3<T>& d) {
     const T zero(0.0), one(1.0);
@@ -85,38 +94,101 @@ struct Swinging {
     rotation = {{c + q.x * v.x, q.x * v.y + v.z, q.x * v.z - v.y},
                 {q.y * v.x - v.z, c + q.y * v.y, q.y * v.z + v.x},
                 {q.z * v.x + v.y, q.z * v.y - v.x, c + q.z * v.z}};
-    on_edge = corner = zero;
+    // Straight backwards any arc is shortest: it turns about the same axis as shortest_arc.
+    const Mask<T> backwards = c < T(-1.0 + 1e-14);
+    const V3<T> n(perpendicular(link.limb, kX)), n2 = n * T(2.0);
+    rotation = {select(backwards, n2 * n.x - V3<T>(kX), rotation.x),
+                select(backwards, n2 * n.y - V3<T>(kY), rotation.y),
+                select(backwards, n2 * n.z - V3<T>(kZ), rotation.z)};
+    on_edge = curvature = zero;
+    back = T(-kFarAhead), room = ahead = T(kFarAhead);
+    round_back[0] = round_back[1] = round_ahead[0] = round_ahead[1] = zero;
     out = V3<T>(perpendicular(link.limb, kX));
-    out = out - d * dot(out, d);
-    out = out * (one / most(root(dot(out, out)), T(1e-9)));
-    V3<T> second{zero, zero, zero};
-    T depth(1e300), second_depth(1e300);
     if (link.swings_freely) {
     } else if (link.swing.kind == Swing::Kind::ellipse) {
       const OnEllipse<T> on(link.swing, d);
-      out = on.outward(link.swing, d);
+      out = on.outward(link.swing, d, room);
       on_edge = select(on.level >= T(1.0 - kOnEdge), one, zero);
     } else {
-      const auto& corners = link.swing.corners;
-      for (std::size_t k = 0; k < corners.size(); ++k) {
-        const Vec3 edge = glm::normalize(glm::cross(corners[k], corners[(k + 1) % corners.size()]));
-        const V3<T> inward(edge);
+      T depth(1e300);
+      for_edges(link.swing, [&](const V3<T>& inward) {
         const T inside = dot(inward, d);
-        const Mask<T> deepest = inside < depth;
-        const Mask<T> next = inside < second_depth;
-        second = select(deepest, -out, select(next, inward, second));
-        second_depth = select(deepest, depth, select(next, inside, second_depth));
-        out = select(deepest, -inward, out);
-        depth = select(deepest, inside, depth);
-      }
+        out = select(inside < depth, -inward, out);
+        depth = least(depth, inside);
+      });
       on_edge = select(depth <= T(kOnEdge), one, zero);
-      out = out - d * dot(out, d);
-      out = out * (one / most(root(dot(out, out)), T(1e-9)));
+      const T sideways = dot(out, d);
+      room = depth / root(most(one - sideways * sideways, T(1e-12)));
     }
+    room = most(room, zero);
+    out = out - d * dot(out, d);
+    out = out * (one / most(root(dot(out, out)), T(1e-9)));
     along = cross(d, out);
-    corner = select(second_depth <= T(kOnEdge), select(dot(second, along) < zero, one, -one), zero);
-    turn_out = along - d * (dot(p, along) * (one / near_turned));
-    turn_along = -out + d * (dot(p, out) * (one / near_turned));
+    if (any(on_edge > zero)) follow_edge(link.swing);
+    const T po = dot(p, out), pa = dot(p, along), w = one / near_turned, half(0.5);
+    const T a = pa * w, b = po * w;
+    turn_out = along - d * a;
+    turn_along = d * b - out;
+    bend_out = d * (a * b) - out * a;
+    bend_along = along * b - d * (a * b);
+    bend_both = (out * b - along * a + d * (a * a - b * b) - (d + out * b + along * a)) * half;
+  }
+
+  // A step out (0), along (1) or in twist (2), no farther than to the edge or its corners. From a corner it may go on.
+  HWY_INLINE T within(int dof, const T& step) const {
+    const T near(kOnEdge), far(kFarAhead);
+    if (dof == 0) return least(step, room);
+    if (dof == 2) return step;
+    return most(least(step, select(ahead > near, ahead, far)), select(back < -near, back, -far));
+  }
+
+  // At a corner, and pressed against both of its edges: neither along this one nor along the next is it downhill.
+  HWY_INLINE Mask<T> in_corner(const T& slope_out, const T& slope_along) const {
+    const T zero(0.0), near(kOnEdge);
+    const T on = slope_out * round_ahead[0] + slope_along * round_ahead[1];
+    const T back_on = slope_out * round_back[0] + slope_along * round_back[1];
+    return ((ahead <= near) & (slope_along < zero) & (on >= zero)) |
+           ((back >= -near) & (slope_along > zero) & (back_on >= zero));
+  }
+
+ private:
+  static constexpr double kFarAhead = 1e3;
+  static constexpr double kLittle = 1e-4;  // rad
+
+  template <class F>
+  static HWY_INLINE void for_edges(const Swing& swing, F f) {
+    const auto& corners = swing.corners;
+    for (std::size_t k = 0; k < corners.size(); ++k)
+      f(V3<T>(glm::normalize(glm::cross(corners[k], corners[(k + 1) % corners.size()]))));
+  }
+
+  // To the corners, which a step along meets exactly; of an ellipse how it bends.
+  HWY_INLINE void follow_edge(const Swing& swing) {
+    const T zero(0.0), one(1.0), tiny(1e-12);
+    if (swing.kind == Swing::Kind::polygon) {
+      for_edges(swing, [&](const V3<T>& inward) {
+        const T inside = most(dot(inward, direction), zero), change = dot(inward, along);
+        const T room = inside / most(magnitude(change), tiny);
+        const Mask<T> nearer = (change < -tiny) & (room < ahead), nearer_back = (change > tiny) & (-room > back);
+        ahead = select(nearer, room, ahead);
+        back = select(nearer_back, -room, back);
+        const V3<T> next = cross(inward, direction);
+        const T outward = dot(next, out), onward = dot(next, along);
+        round_ahead[0] = select(nearer, outward, round_ahead[0]),
+        round_ahead[1] = select(nearer, onward, round_ahead[1]);
+        round_back[0] = select(nearer_back, -outward, round_back[0]);
+        round_back[1] = select(nearer_back, -onward, round_back[1]);
+      });
+      return;
+    }
+    const auto out_at = [&](const T& step) {
+      V3<T> there = direction + along * step;
+      there = there * (one / root(dot(there, there)));
+      T unused;
+      return OnEllipse<T>(swing, there).outward(swing, there, unused);
+    };
+    const T little(kLittle);
+    curvature = dot(along, out_at(little) - out_at(-little)) * T(0.5 / kLittle);
   }
 };
 

@@ -123,12 +123,11 @@ TEST(Stream, AWarmStartIsLeftOnlyForAMuchBetterOne) {
   EXPECT_GT(changed, 0);
 }
 
-// Open faults: disabled, so that they do not hide new ones; --gtest_also_run_disabled_tests shows them.
-TEST(Stream, DISABLED_NoFreeBallIsFasterThanTheBound) {
+TEST(Stream, NoFreeBallIsFasterThanTheBound) {
   expect_bounded(test::build(test::column(4, 0.4, JointType::fixed)), "s3", {0.6, 0, 0.8});
 }
 
-TEST(Stream, DISABLED_NoLimbIsFasterThanTheBound) {
+TEST(Stream, NoLimbIsFasterThanTheBound) {
   FigureDocument d = test::column(4, 0.4, JointType::fixed);
   for (std::size_t i = 1; i < 4; ++i) d.segments[i].joint.swing = test::ellipse(1.5, 1.2);
   expect_bounded(test::build(d), "s3", {0.6, 0, 0.8});

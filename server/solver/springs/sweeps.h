@@ -1,0 +1,19 @@
+// Functions of many angles at once, for the instruction set of this machine. Arrays have room for whole vectors:
+// padded(n) numbers; what lies beyond n is overwritten.
+#pragma once
+
+#include <cstddef>
+
+namespace posed::springs {
+
+inline constexpr std::size_t padded(std::size_t n) {
+  return (n + 7) / 8 * 8;
+}
+
+// angle[i] = atan2(y[i], x[i]), rad; 0 where both are 0. To 4 ulp.
+void arc_tangents(const double* y, const double* x, std::size_t n, double* angle);
+
+// Sine and cosine of half of each angle, rad.
+void half_sines(const double* angle, std::size_t n, double* sine, double* cosine);
+
+}  // namespace posed::springs
