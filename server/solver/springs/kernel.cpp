@@ -2,11 +2,12 @@
 
 #include <algorithm>
 
+#include "server/solver/springs/targets.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "server/solver/springs/kernel.cpp"
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include "server/solver/springs/descent-inl.h"
-#include "server/solver/springs/targets.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace posed::springs::HWY_NAMESPACE {

@@ -1,10 +1,11 @@
 #include "server/solver/springs/sweeps.h"
 
+#include "server/solver/springs/targets.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "server/solver/springs/sweeps.cpp"
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include "server/solver/springs/lanes-inl.h"
-#include "server/solver/springs/targets.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace posed::springs::HWY_NAMESPACE {

@@ -168,10 +168,10 @@ struct Swinging {
     if (swing.kind == Swing::Kind::polygon) {
       for_edges(swing, [&](const V3<T>& inward) {
         const T inside = most(dot(inward, direction), zero), change = dot(inward, along);
-        const T room = inside / most(magnitude(change), tiny);
-        const Mask<T> nearer = (change < -tiny) & (room < ahead), nearer_back = (change > tiny) & (-room > back);
-        ahead = select(nearer, room, ahead);
-        back = select(nearer_back, -room, back);
+        const T left = inside / most(magnitude(change), tiny);
+        const Mask<T> nearer = (change < -tiny) & (left < ahead), nearer_back = (change > tiny) & (-left > back);
+        ahead = select(nearer, left, ahead);
+        back = select(nearer_back, -left, back);
         const V3<T> next = cross(inward, direction);
         const T outward = dot(next, out), onward = dot(next, along);
         round_ahead[0] = select(nearer, outward, round_ahead[0]),
