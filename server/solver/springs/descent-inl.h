@@ -57,7 +57,8 @@ class Descent {
     figure_.place(plan, trial_);
     const T cost = pull(plan, trial_, figure_, newton_);
     const T before = cost_;
-    const Mask<T> gained = cost <= before;
+    // Near its rest the cost says no more; the step is good all the same.
+    const Mask<T> gained = cost <= before * T(1.0 + kRounding);
     keep(gained, trial_.turns, at_.turns), keep(gained, trial_.more, at_.more);
     cost_ = select(gained, cost, before);
     const bool first = iterations_++ == 0;
@@ -86,6 +87,7 @@ class Descent {
 
  private:
   static constexpr double kMostDamping = 1e6;
+  static constexpr double kRounding = 4e-16;
   static constexpr int kSaddleTries = 2;
 
   static constexpr int kAlignments = 4;
@@ -139,8 +141,7 @@ class Descent {
   // What the last step was worth.
   HWY_INLINE void judge(const T& before, const T& cost, const Mask<T>& gained) {
     const T one(1.0), ratio = (before - cost) / most(gain_, T(1e-300));
-    done_ =
-        select(gained & (before - cost <= most(before * T(tuning_.relative_gain), T(tuning_.least_gain))), one, done_);
+    done_ = select(gained & (gain_ <= most(before * T(tuning_.relative_gain), T(tuning_.least_gain))), one, done_);
     const T change = select(ratio > T(0.5), T(0.5), select(ratio > T(0.25), one, T(2.0)));
     factor_ = select(gained, most(factor_ * change, T(tuning_.least_damping)), factor_ * T(5.0));
     second_order_ = select(gained & (cost > before * T(tuning_.second_order_from)), one, second_order_);

@@ -21,7 +21,7 @@ struct Tuning {
   bool second_order = false;  // at once; else where a step leaves more than this of the cost:
   double second_order_from = 0.9;
   double most_turn = 1.0;        // rad or m; of a degree of freedom in one step
-  double relative_gain = 1e-12;  // a step that gains less of the cost is the last,
+  double relative_gain = 1e-12;  // a step that promises less of the cost is the last,
   double least_gain = 0.0;       // or less than this
   double enough = 0.0;           // a cost that needs no further step
   double most_start = 1e300;     // a start that costs more is left as it is (Answer::too_far)

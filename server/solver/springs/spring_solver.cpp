@@ -282,7 +282,7 @@ Tuning SpringSolver::tuning(const SpringOptions& options) const {
   const double sum = weights(), step = 0.3 * options.accuracy, rest = std::max(0.2 * options.accuracy, 1e-10);
   Tuning t;
   t.by_effort = true;
-  t.relative_gain = options.accuracy > 0.0 ? 1e-6 : 1e-14;
+  t.relative_gain = options.accuracy > 0.0 ? 1e-6 : 1e-20;
   t.least_gain = sum * step * step;
   t.enough = sum * rest * rest;
   t.least_cost = sum * 1e-12;
