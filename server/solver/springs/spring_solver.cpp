@@ -21,9 +21,9 @@ constexpr double kFar = 0.02;         // m, weighted RMS: a start from farther a
 constexpr double kReachedRms = 1e-3;  // m
 constexpr double kClearlyBetter = 0.7;
 constexpr double kNoBound = 1e9;
-constexpr double kBalance = 1e-6, kNoBalance = 1e-5;  // SolveReport::balance_error
-constexpr double kReachedExactly = 1e-6;              // m, weighted RMS
-constexpr double kOutside = 1e-10;                    // rad or m beyond a limit that are a matter of rounding
+constexpr double kBalance = 1e-5;         // SolveReport::balance_error
+constexpr double kReachedExactly = 1e-6;  // m, weighted RMS
+constexpr double kOutside = 1e-10;        // rad or m beyond a limit that are a matter of rounding
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -186,10 +186,8 @@ void SpringSolver::explain(std::span<const SpringGoal> goals, const SpringOption
   SolveStatus& status = out.report.status;
   if (status != SolveStatus::deadline && levels_.size() == 1 && options.most_turn >= kNoBound &&
       options.accuracy == 0.0) {
-    if (out.report.balance_error < kBalance || cost_ < weights() * kReachedExactly * kReachedExactly)
-      status = SolveStatus::converged;
-    else if (out.report.balance_error > kNoBalance)
-      status = SolveStatus::stalled;
+    const bool rests = out.report.balance_error < kBalance || cost_ < weights() * kReachedExactly * kReachedExactly;
+    status = rests ? SolveStatus::converged : SolveStatus::stalled;
   }
   out.report.cost = 0.0;
   for (std::size_t g = 0; g < goals.size(); ++g) out.report.cost += explainer_->cost(g);
