@@ -76,7 +76,7 @@ void add_parts(const Plan& plan, const Term& term, const Kinematics<T>& figure, 
 }
 
 template <class T>
-T pull_balance(const Plan& plan, const Term& term, const Kinematics<T>& figure, Newton<T>& newton) {
+void pull_balance(const Plan& plan, const Term& term, const Kinematics<T>& figure, Newton<T>& newton) {
   const Stand<T> at = stand(plan, term, figure);
   const T zero(0.0), error = most(at.error - T(term.shift[0]), zero);
   const T weight(term.weight), force = error * weight;
@@ -93,7 +93,6 @@ T pull_balance(const Plan& plan, const Term& term, const Kinematics<T>& figure, 
   const T little(1e-300);
   add_row(at.way, select(error > zero, weight, little), force);
   add_row({-at.way.y, at.way.x, zero}, most(force * at.bend, little), zero);
-  return force * error;
 }
 
 }  // namespace posed::springs::HWY_NAMESPACE

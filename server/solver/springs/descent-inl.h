@@ -55,7 +55,7 @@ class Descent {
   bool iterate(const Plan& plan) {
     const T zero(0.0), one(1.0);
     figure_.place(plan, trial_);
-    const T cost = pull(plan, trial_, figure_, newton_);
+    const T cost = springs::HWY_NAMESPACE::cost(plan, trial_, figure_, newton_);
     const T before = cost_;
     // Near its rest the cost says no more; the step is good all the same.
     const Mask<T> gained = cost <= before * T(1.0 + kRounding);
@@ -66,10 +66,8 @@ class Descent {
     give_up();
     done_ = select((cost_ <= T(tuning_.enough)) | (factor_ > T(kMostDamping)), one, done_);
     if (!any(done_ < T(0.5))) return false;
-    if (any((!gained) & (done_ < T(0.5)))) {
-      figure_.place(plan, at_);
-      pull(plan, at_, figure_, newton_);
-    }
+    if (any((!gained) & (done_ < T(0.5)))) figure_.place(plan, at_);
+    pull(plan, at_, figure_, newton_);
     for (int tries = 0;; ++tries) {
       const T damping = factor_ * most(cost_, T(tuning_.least_cost));
       const Mask<T> sound = newton_.factor(plan, at_, figure_, damping, tuning_.by_effort, second_order_, gain_);

@@ -51,30 +51,31 @@ HWY_INLINE void add_second_order_turn(const Errors<T>& errors, const V3<T>& torq
 }
 
 template <class T>
-HWY_INLINE T pull_term(const Plan& plan, const Term& term, const Kinematics<T>& figure, Newton<T>& newton) {
+HWY_INLINE V3<T> miss_of(const Term& term, const Placed<T>& segment, const V3<T>& arm) {
+  return segment.centre + arm - V3<T>(term.place + Vec3(term.shift[0], term.shift[1], term.shift[2]));
+}
+
+template <class T>
+HWY_INLINE void pull_term(const Plan& plan, const Term& term, const Kinematics<T>& figure, Newton<T>& newton) {
   const T weight(term.weight), zero(0.0);
   if (term.kind == TermKind::balance) return pull_balance(plan, term, figure, newton);
   const Placed<T>& segment = figure.placed(term.link);
   Load<T>& load = newton.load(term.link);
   if (term.kind == TermKind::point && term.base < 0) {
     const V3<T> arm = segment.rotation * V3<T>(term.point);
-    const V3<T> miss = segment.centre + arm - V3<T>(term.place + Vec3(term.shift[0], term.shift[1], term.shift[2]));
-    const V3<T> force = miss * weight;
-    load.add_point(arm, force, weight);
-    return dot(force, miss);
+    load.add_point(arm, miss_of(term, segment, arm) * weight, weight);
+    return;
   }
   Base<T> base;
   if (term.base >= 0) base.placed = &figure.placed(term.base);
   Errors<T> errors;
   measure(term, segment, base, errors);
-  T cost(0.0);
   V3<T> pull{zero, zero, zero}, turn = pull;
   for (int i = 0; i < errors.count; ++i) {
     const bool stiff_only = i >= errors.real;
     const T error =
         stiff_only ? zero : sensed(term.sense, errors.error[i] - T(term.shift[static_cast<std::size_t>(i)]));
     const T force = error * weight;
-    cost = cost + force * error;
     // An error that does not count is not stiff either.
     const T stiffness =
         term.sense == Sense::equal || stiff_only ? weight : select(magnitude(error) > zero, weight, T(1e-300));
@@ -97,16 +98,46 @@ HWY_INLINE T pull_term(const Plan& plan, const Term& term, const Kinematics<T>& 
   if (errors.is_force && (term.base < 0 || errors.meets)) load.add_second_order(errors.arm, pull);
   if (errors.meets) newton.load(term.base).add_second_order(errors.base_arm, -pull);
   if (term.base < 0 && errors.is_turn) add_second_order_turn(errors, turn, weight, load);
-  return cost;
 }
 
 template <class T>
-T pull(const Plan& plan, const Steps<T>& at, const Kinematics<T>& figure, Newton<T>& newton) {
+void pull(const Plan& plan, const Steps<T>& at, const Kinematics<T>& figure, Newton<T>& newton) {
   newton.clear();
-  T cost(0.0);
-  for (const Term& term : plan.terms) cost = cost + pull_term(plan, term, figure, newton);
-  if (plan.sprung) cost = cost + pull_posture(plan, at, figure, newton);
-  return cost;
+  for (const Term& term : plan.terms) pull_term(plan, term, figure, newton);
+  if (plan.sprung) pull_posture(plan, at, figure, newton);
+}
+
+template <class T>
+HWY_INLINE T cost_of(const Plan& plan, const Term& term, const Kinematics<T>& figure) {
+  const T weight(term.weight), zero(0.0);
+  if (term.kind == TermKind::balance) {
+    const T error = most(stand(plan, term, figure).error - T(term.shift[0]), zero);
+    return error * error * weight;
+  }
+  const Placed<T>& segment = figure.placed(term.link);
+  if (term.kind == TermKind::point && term.base < 0) {
+    const V3<T> miss = miss_of(term, segment, segment.rotation * V3<T>(term.point));
+    return dot(miss, miss) * weight;
+  }
+  Base<T> base;
+  if (term.base >= 0) base.placed = &figure.placed(term.base);
+  Errors<T> errors;
+  measure(term, segment, base, errors);
+  T sum(0.0);
+  for (int i = 0; i < std::min(errors.count, errors.real); ++i) {
+    const T error = sensed(term.sense, errors.error[i] - T(term.shift[static_cast<std::size_t>(i)]));
+    sum = sum + error * error;
+  }
+  return sum * weight;
+}
+
+// What is to be as small as can be: weight x error squared of all goals and springs.
+template <class T>
+T cost(const Plan& plan, const Steps<T>& at, const Kinematics<T>& figure, Newton<T>& newton) {
+  T sum(0.0);
+  for (const Term& term : plan.terms) sum = sum + cost_of(plan, term, figure);
+  if (plan.sprung) sum = sum + pull_posture(plan, at, figure, newton);
+  return sum;
 }
 
 }  // namespace posed::springs::HWY_NAMESPACE

@@ -8,6 +8,7 @@
 #include "server/solver/springs/explain.h"
 #include "server/solver/springs/plan_builder.h"
 #include "server/solver/springs/starts.h"
+#include "server/solver/springs/sweeps.h"
 #include "server/solver/springs/terms.h"
 
 namespace posed {
@@ -168,7 +169,7 @@ void SpringSolver::solve(std::span<const SpringGoal> goals, const SpringOptions&
   for (std::size_t f = 0; f < figures_.size(); ++f) {
     angles_.write(*figures_[f], static_cast<int>(f), plan_, state_, out.q[f]);
     out.world_from_segment[f].resize(at(figures_[f]->size()));
-    forward_kinematics(*figures_[f], out.q[f], out.world_from_segment[f]);
+    springs::place_segments(*figures_[f], out.q[f], out.world_from_segment[f]);
   }
   explain(goals, options, out);
 }

@@ -1,8 +1,11 @@
-// Functions of many angles at once, for the instruction set of this machine. Arrays have room for whole vectors:
-// padded(n) numbers; what lies beyond n is overwritten.
+// What runs over a whole figure before and after a solve, for the instruction set of this machine. Arrays of angles
+// have room for whole vectors: padded(n) numbers; what lies beyond n is overwritten.
 #pragma once
 
 #include <cstddef>
+#include <span>
+
+#include "server/solver/body_tree.h"
 
 namespace posed::springs {
 
@@ -15,5 +18,8 @@ void arc_tangents(const double* y, const double* x, std::size_t n, double* angle
 
 // Sine and cosine of half of each angle, rad.
 void half_sines(const double* angle, std::size_t n, double* sine, double* cosine);
+
+// The same as forward_kinematics (solver/kinematics.h).
+void place_segments(const BodyTree& tree, std::span<const double> q, std::span<Transform> world_from_segment);
 
 }  // namespace posed::springs

@@ -1,0 +1,77 @@
+// The answer is the same on every instruction set, to 1e-9.
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+
+#include <algorithm>
+#include <string>
+
+#include "tests/support/spring_bench.h"
+
+namespace posed {
+namespace {
+
+using test::SpringBench;
+
+// Solvers made while it lives run on one instruction set.
+struct On {
+  explicit On(std::int64_t target) {
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  }
+  ~On() {
+    hwy::SetSupportedTargetsForTest(0);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  }
+  On(const On&) = delete;
+  On& operator=(const On&) = delete;
+};
+
+struct Solved {
+  std::string on;
+  std::vector<std::vector<double>> q;
+  std::vector<double> costs;
+};
+
+// A hand that is followed, goals out of reach, and cold solves from many starts.
+Solved solve_all() {
+  Solved out;
+  std::mt19937 random(131);
+  for (int n = 0; n < 30; ++n) {
+    SpringBench b(test::human());
+    const double reach = n % 3 == 0 ? 0.4 : 1.5;
+    for (const char* end : {"right_hand", "left_hand", "right_foot", "head"})
+      b.pull(end, b.touch(end) + test::random_point(random, reach));
+    b.options.cold = n % 3 == 2;
+    const SpringPose pose = b.solve();
+    out.on = b.solver.instruction_set();
+    out.q.push_back(pose.q[0]);
+    out.costs.push_back(pose.report.cost);
+  }
+  return out;
+}
+
+TEST(InstructionSets, GiveTheSameAnswer) {
+  std::vector<Solved> all;
+  std::string known;
+  for (std::int64_t targets = hwy::SupportedTargets(); targets != 0; targets &= targets - 1) {
+    const On on(targets & -targets);
+    Solved solved = solve_all();
+    if (known.find(" " + solved.on) != std::string::npos) continue;  // two names for one kernel
+    known += " " + solved.on;
+    all.push_back(std::move(solved));
+  }
+  RecordProperty("instruction_sets", known);
+  if (all.size() < 2) GTEST_SKIP() << "this build has one instruction set only:" << known;
+  for (const Solved& other : all) {
+    for (std::size_t n = 0; n < all[0].q.size(); ++n) {
+      double apart = 0.0;
+      for (std::size_t k = 0; k < all[0].q[n].size(); ++k)
+        apart = std::max(apart, std::abs(all[0].q[n][k] - other.q[n][k]));
+      EXPECT_LT(apart, 1e-9) << all[0].on << " and " << other.on << ", problem " << n;
+      EXPECT_NEAR(all[0].costs[n], other.costs[n], 1e-9 * std::max(1.0, all[0].costs[n])) << other.on << " " << n;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace posed
