@@ -333,7 +333,7 @@ void SpringSolver::search(const SpringOptions& options, const Stop& should_stop,
   Tuning t = tuning(options);
   t.by_effort = false;
   t.align = true;
-  t.damping = 0.01;
+  t.damping = 0.03;
   t.patience = 5;
   const springs::Answer first = descend(t, should_stop, report);
   if (first.stopped) return;
