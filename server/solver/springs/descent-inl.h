@@ -41,6 +41,7 @@ class Descent {
     done_ = T(0.0);
     gain_ = T(1.0);
     iterations_ = 0;
+    careful_ = false;
   }
 
   // Moves each floating root, as a rigid body, to where its position goals are nearest: a good place to start from.
@@ -66,7 +67,11 @@ class Descent {
     give_up();
     done_ = select((cost_ <= T(tuning_.enough)) | (factor_ > T(kMostDamping)), one, done_);
     if (!any(done_ < T(0.5))) return false;
-    if (any((!gained) & (done_ < T(0.5)))) figure_.place(plan, at_);
+    newton_.let_go();
+    if (any((!gained) & (done_ < T(0.5)))) {
+      careful_ = lanes_of<T>() == 1;
+      figure_.place(plan, at_);
+    }
     pull(plan, at_, figure_, newton_);
     for (int tries = 0;; ++tries) {
       const T damping = factor_ * most(cost_, T(tuning_.least_cost));
@@ -78,7 +83,7 @@ class Descent {
       factor_ = select(retry, most(factor_ * T(4.0), T(1e-3)), factor_);
       pull(plan, at_, figure_, newton_);
     }
-    newton_.step(plan, at_, figure_, T(tuning_.most_turn), step_);
+    take_step(plan);
     advance(plan);
     return true;
   }
@@ -87,6 +92,7 @@ class Descent {
   static constexpr double kMostDamping = 1e6;
   static constexpr double kRounding = 4e-16;
   static constexpr int kSaddleTries = 2;
+  static constexpr int kAgain = 3;
 
   static constexpr int kAlignments = 4;
 
@@ -125,6 +131,17 @@ class Descent {
       const Wrench<T> motion = factor.solve(load.slope, gain);
       place[0] = place[0] + motion.shift.x, place[1] = place[1] + motion.shift.y, place[2] = place[2] + motion.shift.z;
       turn(place + 3, motion.turn, place + 3);
+    }
+  }
+
+  // Where a step has failed, joints that their bounds stop are made up for by all others: springs that are far stiffer
+  // than the rest forgive nothing.
+  void take_step(const Plan& plan) {
+    const T most_turn(tuning_.most_turn);
+    for (int again = 0; newton_.step(plan, at_, figure_, most_turn, step_) && careful_ && again < kAgain; ++again) {
+      pull(plan, at_, figure_, newton_);
+      newton_.factor(plan, at_, figure_, factor_ * most(cost_, T(tuning_.least_cost)), tuning_.by_effort, second_order_,
+                     gain_);
     }
   }
 
@@ -190,6 +207,7 @@ class Descent {
   Tuning tuning_;
   T cost_, marked_, factor_, second_order_, done_, gain_;
   int iterations_ = 0;
+  bool careful_ = false;
 };
 
 }  // namespace posed::springs::HWY_NAMESPACE

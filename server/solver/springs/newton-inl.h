@@ -30,6 +30,8 @@ class Newton {
     roots_.resize(plan.links.size());
     columns_.resize(plan.dofs.size());
     spring_slopes_.resize(plan.dofs.size());
+    stops_.resize(plan.dofs.size());
+    stopped_.resize(plan.dofs.size());
     ties_.reserve(ties);
     parts_.reserve(tie_parts);
     tie_matrix_.resize(ties * ties);
@@ -92,9 +94,16 @@ class Newton {
     return (concave <= T(0.0)) & (concave >= T(0.0));
   }
 
+  // No joint is stopped by its bound.
+  void let_go() {
+    for (T& stopped : stopped_) stopped = T(0.0);
+  }
+
   // From the roots to the leaves: each joint's share of the step, kept inside its bounds, so that those below it make
-  // up for what it can not do.
-  void step(const Plan& plan, const Steps<T>& at, const Kinematics<T>& figure, const T& most_turn, Steps<T>& step) {
+  // up for what it can not do. True where a bound stopped one: after another factor() those above it make up for it
+  // too.
+  bool step(const Plan& plan, const Steps<T>& at, const Kinematics<T>& figure, const T& most_turn, Steps<T>& step) {
+    bool stopped = false;
     for (std::size_t i = 0; i < plan.links.size(); ++i) {
       const Link& link = plan.links[i];
       Wrench<T>& m = motions_[i];
@@ -107,17 +116,26 @@ class Newton {
       carry(link, i, figure);
       for (int j = link.dof; j < link.dof + link.dofs; ++j) {
         const auto k = static_cast<std::size_t>(j);
-        T x = share(k, m);
-        x = most(least(x, most_turn), -most_turn);
+        const T wish = most(least(share(k, m, true), most_turn), -most_turn);
+        T x = wish;
         x = most(least(x, T(plan.most[k]) - at.turns[k]), T(plan.least[k]) - at.turns[k]);
         if (link.kind == LinkKind::limb) x = figure.swinging(i).within(j - link.dof, x);
+        const Mask<T> falls_short = magnitude(wish - x) > T(kShort);
+        if (any(falls_short)) {
+          stopped = true;
+          stops_[k] = select(falls_short, x, stops_[k]);
+          stopped_[k] = select(falls_short, T(1.0), stopped_[k]);
+        }
         step.turns[k] = x;
         move(plan.dofs[k], figure.axis(k), x, m);
       }
     }
+    return stopped;
   }
 
  private:
+  static constexpr double kShort = 1e-12;  // rad or m
+
   struct Column {
     V3<T> turn, shift;  // the load's matrix times the axis
     T inverse, slope;   // of the pivot (0: pinned); along the axis
@@ -202,10 +220,12 @@ class Newton {
     for (std::size_t r = 0; r < kDofs; ++r) {
       const std::size_t k = kDofs - 1 - r;
       const Mask<T> pinned = is_pinned(plan, link, i, first + k, at, figure, slope[0], slope[k]);
-      concave = concave + select(s[k][k] > zero, zero, select(pinned, zero, one));
-      const T inverse = select(pinned, zero, one / s[k][k]);
-      const T share = slope[k] * inverse;
-      gain = gain + slope[k] * share;
+      const Mask<T> stopped = stopped_[first + k] > zero;
+      concave = concave + select((s[k][k] > zero) | pinned | stopped, zero, one);
+      const T inverse = select(pinned | stopped, zero, one / s[k][k]);
+      const T& stop = stops_[first + k];
+      const T share = select(stopped, -stop, slope[k] * inverse);
+      gain = gain + select(stopped, -(slope[k] + slope[k] + s[k][k] * stop) * stop, slope[k] * share);
       POSED_UNROLL
       for (std::size_t m = 0; m < k; ++m) {
         const T part = s[m][k] * inverse;
@@ -254,9 +274,11 @@ class Newton {
     m.turn = p.turn;
     m.shift = p.shift + cross(p.turn, figure.placed(static_cast<int>(i)).centre - figure.placed(link.parent).centre);
   }
-  HWY_INLINE T share(std::size_t j, const Wrench<T>& m) const {
+  // `whole`: of a step, and not of its change by a tie's pull.
+  HWY_INLINE T share(std::size_t j, const Wrench<T>& m, bool whole) const {
     const Column& c = columns_[j];
-    return -(c.slope + dot(c.turn, m.turn) + dot(c.shift, m.shift)) * c.inverse;
+    const T free = -(c.slope + dot(c.turn, m.turn) + dot(c.shift, m.shift)) * c.inverse;
+    return whole ? select(stopped_[j] > T(0.0), stops_[j], free) : free;
   }
   HWY_INLINE static void move(const Dof& dof, const V3<T>& axis, const T& x, Wrench<T>& m) {
     if (dof.kind == DofKind::along_axis)
@@ -284,7 +306,8 @@ class Newton {
         Column& c = columns_[k];
         c.slope = dot(plan.dofs[k].kind == DofKind::along_axis ? slope.shift : slope.turn, figure.axis(k));
         if (with_springs && plan.sprung) c.slope = c.slope + spring_slopes_[k];
-        const T share = c.slope * c.inverse;
+        T share = c.slope * c.inverse;
+        if (with_springs) share = select(stopped_[k] > T(0.0), -stops_[k], share);
         slope.turn -= c.turn * share;
         slope.shift -= c.shift * share;
       }
@@ -298,7 +321,7 @@ class Newton {
       carry(link, i, figure);
       for (int j = link.dof; j < link.dof + link.dofs; ++j) {
         const auto k = static_cast<std::size_t>(j);
-        move(plan.dofs[k], figure.axis(k), share(k, motions_[i]), motions_[i]);
+        move(plan.dofs[k], figure.axis(k), share(k, motions_[i], with_springs), motions_[i]);
       }
     }
   }
@@ -365,6 +388,7 @@ class Newton {
   Memory<RootFactor<T>> roots_;
   Memory<Column> columns_;
   Memory<T> spring_slopes_;
+  Memory<T> stops_, stopped_;  // the steps of joints that their bounds stop; 1 where they do
   Memory<Tie> ties_;
   Memory<Part> parts_;
   Memory<T> tie_matrix_, tie_slopes_;
