@@ -1,6 +1,7 @@
 // The program as a user starts it: what it prints, how it ends.
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -22,18 +23,19 @@ class Child {
   explicit Child(std::vector<std::string> arguments) {
     int ends[2];
     if (pipe(ends) != 0) throw std::runtime_error("pipe");
-    pid_ = fork();
-    if (pid_ == 0) {
-      dup2(ends[1], 1);
-      dup2(ends[1], 2);
-      close(ends[0]);
-      std::vector<char*> argv;
-      for (auto& a : arguments) argv.push_back(a.data());
-      argv.push_back(nullptr);
-      execv(argv[0], argv.data());
-      _exit(127);
-    }
+    std::vector<char*> argv;
+    for (auto& a : arguments) argv.push_back(a.data());
+    argv.push_back(nullptr);
+    // Not fork: the test's own threads may hold the allocator's lock just then, and the child would wait for ever.
+    posix_spawn_file_actions_t wiring;
+    posix_spawn_file_actions_init(&wiring);
+    posix_spawn_file_actions_adddup2(&wiring, ends[1], 1);
+    posix_spawn_file_actions_adddup2(&wiring, ends[1], 2);
+    posix_spawn_file_actions_addclose(&wiring, ends[0]);
+    const int failed = posix_spawn(&pid_, argv[0], &wiring, nullptr, argv.data(), environ);
+    posix_spawn_file_actions_destroy(&wiring);
     close(ends[1]);
+    if (failed != 0) throw std::runtime_error("posix_spawn");
     out_ = fdopen(ends[0], "r");
   }
   ~Child() {

@@ -18,10 +18,10 @@ namespace posed::springs::HWY_NAMESPACE {
 
 template <class T>
 struct Stand {
-  T error;                    // m outside; below 0: inside
   V3<T> way;                  // unit, level: straight out
-  T bend;                     // 1 / m, round a support; of an edge 0
   V3<T> arms[kMostSupports];  // of the supports, from their segments' centres
+  T error;                    // m outside; below 0: inside
+  T bend;                     // 1 / m, round a support; of an edge 0
   T shares[kMostSupports];    // how much of the nearest edge's place is each support's
 };
 
