@@ -80,7 +80,7 @@ void expect_balanced(SpringBench& b, Tally& tally, int n) {
   EXPECT_LT(b.unbalance(out), 2e-5) << n << " cost " << b.cost(out.q);
 }
 
-void expect_most(const Tally& tally, int percent = 90) {
+void expect_most(const Tally& tally, int percent = 95) {
   EXPECT_GE(tally.converged, tally.all * percent / 100) << tally.all;
 }
 
