@@ -27,6 +27,9 @@ template <class T>
 HWY_INLINE T dot(const Wrench<T>& a, const Wrench<T>& b) {
   return dot(a.turn, b.turn) + dot(a.shift, b.shift);
 }
+HWY_INLINE double dot(const Wrench<double>& a, const Wrench<double>& b) {
+  return V3<double>(a.turn.all * b.turn.all + a.shift.all * b.shift.all).sum();
+}
 
 // m' M m / 2 + m' slope, with m the motion of the segment's own centre and M in blocks. `pull` and `moment` carry the
 // terms of second order: see bend().
@@ -117,8 +120,9 @@ struct Load {
     slope.shift -= w * share;
   }
 
-  // Adds this to the load of the segment above; `arm` points from its centre to ours.
-  HWY_INLINE void hand_down(const V3<T>& arm, Load& to) const {
+  // Adds this to the load of the segment above; `arm` points from its centre to ours. The terms of second order are
+  // left out where `newton` is 0.
+  HWY_INLINE void hand_down(const V3<T>& arm, const T& newton, Load& to) const {
     const S3<T>& c = shift_shift;
     const M3<T>& o = turn_shift;
     // B + [arm] C, column by column
@@ -133,6 +137,7 @@ struct Load {
     to.turn_shift += b;
     to.shift_shift += c;
     to.slope += {slope.turn + cross(arm, slope.shift), slope.shift};
+    if (!any(newton > T(0.0))) return;
     to.pull += pull;
     to.moment.x += moment.x + arm * pull.x;
     to.moment.y += moment.y + arm * pull.y;
@@ -216,7 +221,7 @@ struct Load<double> {
     slope.shift -= w * share;
   }
 
-  HWY_INLINE void hand_down(const V& arm, Load& to) const {
+  HWY_INLINE void hand_down(const V& arm, double newton, Load& to) const {
     const M3<double>&c = shift_shift, &d = shift_turn;
     // D - C [arm]
     const M3<double> handed{d.x + c.z * arm.y - c.y * arm.z, d.y + c.x * arm.z - c.z * arm.x,
@@ -229,6 +234,7 @@ struct Load<double> {
     to.shift_turn += handed;
     to.shift_shift += c;
     to.slope += {slope.turn + cross(arm, slope.shift), slope.shift};
+    if (newton == 0.0) return;
     to.pull += pull;
     to.moment.x += moment.x + arm * pull.x;
     to.moment.y += moment.y + arm * pull.y;

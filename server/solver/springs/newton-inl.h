@@ -77,8 +77,7 @@ class Newton {
       const auto out = [&]<int kDofs>(std::integral_constant<int, kDofs>, std::size_t from) HWY_ATTR {
         take_out<kDofs>(plan, link, i, from, at, figure, damping, by_effort, newton, load, concave, gain);
       };
-      // One alone waits for each number, eight fill the processor (and its registers) as they are.
-      const int together = lanes_of<T>() == 1 || link.kind == LinkKind::limb ? link.dofs : 1;
+      const int together = together_of(link);
       if (together == 3) {
         out(std::integral_constant<int, 3>(), first);
       } else if (together == 2) {
@@ -87,7 +86,7 @@ class Newton {
         for (auto j = static_cast<std::size_t>(link.dofs); j-- > 0;) out(std::integral_constant<int, 1>(), first + j);
       }
       if (link.parent >= 0)
-        load.hand_down(figure.placed(static_cast<int>(i)).centre - figure.placed(link.parent).centre,
+        load.hand_down(figure.placed(static_cast<int>(i)).centre - figure.placed(link.parent).centre, newton,
                        this->load(link.parent));
     }
     if (!ties_.empty()) concave = concave - bring_in_ties(plan, figure, gain);
@@ -114,20 +113,17 @@ class Newton {
         continue;
       }
       carry(link, i, figure);
-      for (int j = link.dof; j < link.dof + link.dofs; ++j) {
-        const auto k = static_cast<std::size_t>(j);
-        const T wish = most(least(share(k, m, true), most_turn), -most_turn);
-        T x = wish;
-        x = most(least(x, T(plan.most[k]) - at.turns[k]), T(plan.least[k]) - at.turns[k]);
-        if (link.kind == LinkKind::limb) x = figure.swinging(i).within(j - link.dof, x);
-        const Mask<T> falls_short = magnitude(wish - x) > T(kShort);
-        if (any(falls_short)) {
-          stopped = true;
-          stops_[k] = select(falls_short, x, stops_[k]);
-          stopped_[k] = select(falls_short, T(1.0), stopped_[k]);
-        }
-        step.turns[k] = x;
-        move(plan.dofs[k], figure.axis(k), x, m);
+      const auto first = static_cast<std::size_t>(link.dof);
+      const auto go = [&]<int kDofs>(std::integral_constant<int, kDofs>, std::size_t from)
+                          HWY_ATTR { stopped |= move_joint<kDofs>(plan, link, i, from, at, figure, most_turn, step); };
+      const int together = together_of(link);
+      if (together == 3) {
+        go(std::integral_constant<int, 3>(), first);
+      } else if (together == 2) {
+        go(std::integral_constant<int, 2>(), first);
+      } else {
+        for (std::size_t j = 0; j < static_cast<std::size_t>(link.dofs); ++j)
+          go(std::integral_constant<int, 1>(), first + j);
       }
     }
     return stopped;
@@ -139,6 +135,7 @@ class Newton {
   struct Column {
     V3<T> turn, shift;  // the load's matrix times the axis
     T inverse, slope;   // of the pivot (0: pinned); along the axis
+    T before[2];        // along the axes of the joint's degrees of freedom before this one, where they go together
   };
   struct Tie {
     T weight;
@@ -148,6 +145,11 @@ class Newton {
     int link;
     Wrench<T> row;
   };
+
+  // One alone waits for each number, eight fill the processor (and its registers) as they are.
+  HWY_INLINE static int together_of(const Link& link) {
+    return lanes_of<T>() == 1 || link.kind == LinkKind::limb ? link.dofs : 1;
+  }
 
   HWY_INLINE static T effort(const Plan& plan, std::size_t dof, bool by_effort) {
     return T(by_effort ? plan.dofs[dof].effort : 1.0);
@@ -223,9 +225,13 @@ class Newton {
       const Mask<T> stopped = stopped_[first + k] > zero;
       concave = concave + select((s[k][k] > zero) | pinned | stopped, zero, one);
       const T inverse = select(pinned | stopped, zero, one / s[k][k]);
-      const T& stop = stops_[first + k];
-      const T share = select(stopped, -stop, slope[k] * inverse);
-      gain = gain + select(stopped, -(slope[k] + slope[k] + s[k][k] * stop) * stop, slope[k] * share);
+      T share = slope[k] * inverse, gained = slope[k] * share;
+      if (any(stopped)) {
+        const T& stop = stops_[first + k];
+        share = select(stopped, -stop, share);
+        gained = select(stopped, -(slope[k] + slope[k] + s[k][k] * stop) * stop, gained);
+      }
+      gain = gain + gained;
       POSED_UNROLL
       for (std::size_t m = 0; m < k; ++m) {
         const T part = s[m][k] * inverse;
@@ -236,8 +242,45 @@ class Newton {
         w[m] -= w[k] * part;
       }
       load.take_out(u[k], w[k], inverse, share);
-      columns_[first + k] = {u[k], w[k], inverse, slope[k]};
+      Column& column = columns_[first + k];
+      column.turn = u[k], column.shift = w[k], column.inverse = inverse, column.slope = slope[k];
+      POSED_UNROLL
+      for (std::size_t m = 0; m < k; ++m) column.before[m] = s[m][k];
     }
+  }
+
+  // The degrees of freedom of one joint, the first first. True where a bound stopped one.
+  template <int kDofs>
+  HWY_INLINE bool move_joint(const Plan& plan, const Link& link, std::size_t i, std::size_t first, const Steps<T>& at,
+                             const Kinematics<T>& figure, const T& most_turn, Steps<T>& step) {
+    Wrench<T>& m = motions_[i];
+    T slope[kDofs];
+    POSED_UNROLL
+    for (std::size_t k = 0; k < kDofs; ++k) {
+      const Column& c = columns_[first + k];
+      slope[k] = c.slope + dot(Wrench<T>{c.turn, c.shift}, m);
+    }
+    bool stopped = false;
+    POSED_UNROLL
+    for (std::size_t k = 0; k < kDofs; ++k) {
+      const std::size_t j = first + k;
+      const T free = -slope[k] * columns_[j].inverse;
+      const T share = select(stopped_[j] > T(0.0), stops_[j], free);
+      const T wish = most(least(share, most_turn), -most_turn);
+      T x = most(least(wish, T(plan.most[j]) - at.turns[j]), T(plan.least[j]) - at.turns[j]);
+      if (link.kind == LinkKind::limb) x = figure.swinging(i).within(static_cast<int>(k), x);
+      const Mask<T> falls_short = magnitude(wish - x) > T(kShort);
+      if (any(falls_short)) {
+        stopped = true;
+        stops_[j] = select(falls_short, x, stops_[j]);
+        stopped_[j] = select(falls_short, T(1.0), stopped_[j]);
+      }
+      step.turns[j] = x;
+      POSED_UNROLL
+      for (std::size_t l = k + 1; l < kDofs; ++l) slope[l] = slope[l] + columns_[first + l].before[k] * x;
+      move(plan.dofs[j], figure.axis(j), x, m);
+    }
+    return stopped;
   }
 
   // A spring against a limb's turn: its degrees of freedom are not at right angles.
@@ -256,6 +299,10 @@ class Newton {
                                       const Steps<T>& at, const Kinematics<T>& figure, const T& slope_first,
                                       const T& slope) {
     const T zero(0.0), near(kOnEdge);
+    if constexpr (lanes_of<T>() == 1) {
+      const bool inside = at.turns[j] < plan.most[j] - near && at.turns[j] > plan.least[j] + near;
+      if (inside && link.kind != LinkKind::limb) return false;
+    }
     Mask<T> pinned = ((at.turns[j] >= T(plan.most[j]) - near) & (slope < zero)) |
                      ((at.turns[j] <= T(plan.least[j]) + near) & (slope > zero));
     if (link.kind == LinkKind::limb) {
@@ -277,7 +324,7 @@ class Newton {
   // `whole`: of a step, and not of its change by a tie's pull.
   HWY_INLINE T share(std::size_t j, const Wrench<T>& m, bool whole) const {
     const Column& c = columns_[j];
-    const T free = -(c.slope + dot(c.turn, m.turn) + dot(c.shift, m.shift)) * c.inverse;
+    const T free = -(c.slope + dot(Wrench<T>{c.turn, c.shift}, m)) * c.inverse;
     return whole ? select(stopped_[j] > T(0.0), stops_[j], free) : free;
   }
   HWY_INLINE static void move(const Dof& dof, const V3<T>& axis, const T& x, Wrench<T>& m) {

@@ -32,8 +32,8 @@ struct SpringOptions {
   int iterations = 200;  // of each descent; a replay's budget
   // Of one solve, rad or m: how far a joint may move from its start, so that streams do not jump. Roots are free.
   double most_turn = 1e9;
-  // A goal's place is right to this, m: half a tenth of a millimetre is enough for a stream, 0 goes on until nothing
-  // gains.
+  // Where goals can be reached, their places are right to this, m (root mean square, by weight): half a tenth of a
+  // millimetre is enough for a stream. 0 goes on until nothing gains.
   double accuracy = 0.0;
   bool explain = true;  // fill the goals' states and causes
 };

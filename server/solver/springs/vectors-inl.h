@@ -60,6 +60,7 @@ struct alignas(32) V3<double> {  // said aloud: see Lanes
     all -= b.all;
     return *this;
   }
+  HWY_INLINE double sum() const { return x + y + z; }
   HWY_INLINE V3 yzx() const { return V3(__builtin_shufflevector(all, all, 1, 2, 0, 3)); }
 };
 
