@@ -41,6 +41,16 @@ void ball(Segment& s, std::string name, Vec3 bend_axis, Limits limits) {
   s.joint.limits = std::move(limits);
 }
 
+// Where the limb may point, as an ellipse of directions about `center`, and its twist.
+void limb(Segment& s, std::string name, Vec3 bend_axis, Vec3 center, std::array<double, 2> radii, Limit twist) {
+  ball(s, std::move(name), bend_axis, {});
+  Swing swing;
+  swing.center = glm::normalize(center);
+  swing.radii = {radii[0] * kDegree, radii[1] * kDegree};
+  s.joint.swing = swing;
+  s.joint.twist = twist;
+}
+
 void universal(Segment& s, std::string name, Vec3 first, Vec3 second, Limits limits) {
   ball(s, std::move(name), first, std::move(limits));
   s.joint.type = JointType::universal;
@@ -73,10 +83,10 @@ std::vector<Segment> left_arm() {
   universal(clavicle, "left_sternoclavicular", -kZ, kX, {degrees(-25, 25), degrees(-10, 30)});
   clavicle.shapes = {capsule({0, 0.010, 0}, {0, 0.100, 0}, 0.026)};
 
-  // From the T-pose: x raises and lowers the arm, y turns it inward and outward, z carries it back and forward. Outward
-  // a degree less than the tables' 90, where x and z would be one.
+  // The shoulder's 180 of flexion, 60 of extension and 135 across the chest are those of clavicle and upper arm
+  // together: of the arm alone all that lies within 100 of a direction forward, outward and a little down.
   Segment upper = part("left_upper_arm", "left_clavicle", {0, 0.114, 0}, {0, 0.186, 0}, 0.028);
-  ball(upper, "left_shoulder", -kZ, {degrees(-90, 90), degrees(-89, 70), degrees(-135, 45)});
+  limb(upper, "left_shoulder", -kZ, {0.6, 0.75, -0.28}, {100, 100}, degrees(-90, 70));
   upper.shapes = {capsule({0, 0, 0}, {0, 0.186, 0}, 0.027)};
 
   Segment lower = part("left_lower_arm", "left_upper_arm", {0, 0.186, 0}, {0, 0.146, 0}, 0.016);
@@ -90,9 +100,9 @@ std::vector<Segment> left_arm() {
 }
 
 std::vector<Segment> left_leg() {
-  // About x: abduction; y: flexion is negative; z: rotation.
+  // About the middle of flexion 120 and extension 30, abduction 45 and adduction 30.
   Segment upper = part("left_upper_leg", "lower_torso", {0, 0.052, 0}, {0, 0, -0.245}, 0.100);
-  ball(upper, "left_hip", -kY, {degrees(-30, 45), degrees(-120, 30), degrees(-45, 45)});
+  limb(upper, "left_hip", -kY, {0.701, 0.131, -0.701}, {75, 37.5}, degrees(-45, 45));
   upper.shapes = {capsule({0, 0, -0.010}, {0, 0, -0.245}, 0.043)};
 
   Segment lower = part("left_lower_leg", "left_upper_leg", {0, 0, -0.245}, {0, 0, -0.246}, 0.0465);
@@ -131,9 +141,13 @@ Segment mirrored(Segment s) {
   for (Vec3& axis : s.joint.axes) axis = mirrored_axis(axis);
   s.joint.bend_axis = mirrored_axis(s.joint.bend_axis);
   if (s.joint.type == JointType::ball) {
-    // A ball joint's limits are about fixed axes, so two of them turn over instead.
-    s.joint.limits[0] = negated(s.joint.limits[0]);
-    s.joint.limits[2] = negated(s.joint.limits[2]);
+    // A ball joint's limits are about fixed axes, so two of them turn over instead; its twist is about the limb.
+    if (!s.joint.limits.empty()) {
+      s.joint.limits[0] = negated(s.joint.limits[0]);
+      s.joint.limits[2] = negated(s.joint.limits[2]);
+    }
+    if (s.joint.swing) s.joint.swing->center = mirrored_point(s.joint.swing->center);
+    s.joint.twist = negated(s.joint.twist);
   }
   for (Shape& shape : s.shapes) {
     shape.a = mirrored_point(shape.a);

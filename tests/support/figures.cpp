@@ -22,6 +22,25 @@ std::shared_ptr<const BodyTree> human(double stature) {
   return build(tempus(stature).value());
 }
 
+FigureDocument boxed_human() {
+  constexpr double kDegree = M_PI / 180.0;
+  FigureDocument d = tempus(1.75).value();
+  const auto box = [&](const std::string& joint, double x_min, double x_max, double y_min, double y_max, double z_min,
+                       double z_max) {
+    for (Segment& s : d.segments) {
+      if (s.joint.name != joint) continue;
+      s.joint.swing.reset(), s.joint.twist.reset();
+      s.joint.limits = {Limit{x_min * kDegree, x_max * kDegree}, Limit{y_min * kDegree, y_max * kDegree},
+                        Limit{z_min * kDegree, z_max * kDegree}};
+    }
+  };
+  box("left_shoulder", -90, 90, -89, 70, -135, 45);
+  box("right_shoulder", -90, 90, -89, 70, -45, 135);
+  box("left_hip", -30, 45, -120, 30, -45, 45);
+  box("right_hip", -45, 30, -120, 30, -45, 45);
+  return d;
+}
+
 FigureDocument column(int segments, double length, JointType root) {
   FigureDocument d;
   d.root = "s0";

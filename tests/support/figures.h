@@ -14,6 +14,8 @@ namespace posed::test {
 // Throws std::runtime_error with the error's message.
 std::shared_ptr<const BodyTree> build(const FigureDocument& document);
 std::shared_ptr<const BodyTree> human(double stature = 1.75);
+// The built-in one with boxes in place of swing and twist at shoulders and hips: all limits as hinges know them.
+FigureDocument boxed_human();
 
 // Segments s0, s1, ... one above the other along Z, each with its touch point `length` above its joint; ball joints j0,
 // j1,

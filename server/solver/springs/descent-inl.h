@@ -93,6 +93,7 @@ class Descent {
   static constexpr double kRounding = 4e-16;
   static constexpr int kSaddleTries = 2;
   static constexpr int kAgain = 3;
+  static constexpr double kAtEdge = 1e-7;  // rad
 
   static constexpr int kAlignments = 4;
 
@@ -155,11 +156,15 @@ class Descent {
 
   // What the last step was worth.
   HWY_INLINE void judge(const T& before, const T& cost, const Mask<T>& gained) {
-    const T one(1.0), ratio = (before - cost) / most(gain_, T(1e-300));
-    done_ = select(gained & (gain_ <= most(before * T(tuning_.relative_gain), T(tuning_.least_gain))), one, done_);
+    const T zero(0.0), one(1.0);
+    // Steps that bounds prescribe may promise less than nothing.
+    const T ratio = select(gain_ > zero, (before - cost) / most(gain_, T(1e-300)), zero);
+    const T little = most(before * T(tuning_.relative_gain), T(tuning_.least_gain));
+    done_ = select(gained & (magnitude(gain_) <= little), one, done_);
     const T change = select(ratio > T(0.5), T(0.5), select(ratio > T(0.25), one, T(2.0)));
     factor_ = select(gained, most(factor_ * change, T(tuning_.least_damping)), factor_ * T(5.0));
     second_order_ = select(gained & (cost > before * T(tuning_.second_order_from)), one, second_order_);
+    if constexpr (lanes_of<T>() == 1) careful_ = careful_ || (second_order_ > 0.0 && ratio < 0.25);
   }
 
   // A start that comes on too slowly.
@@ -184,7 +189,9 @@ class Descent {
         for (std::size_t k = j; k < j + 3; ++k) trial_.turns[k] = T(0.0);
       } else if (link.kind == LinkKind::limb) {
         const Swinging<T>& swinging = figure_.swinging(i);
-        const V3<T> d = kept_inside(link, swinging.direction + swinging.out * s[0] + swinging.along * s[1]);
+        // A step along the edge stays on it, as its curvature has promised.
+        const Mask<T> along_edge = (s[0] >= T(0.0)) & (swinging.room <= T(kAtEdge));
+        const V3<T> d = kept_inside(link, swinging.direction + swinging.out * s[0] + swinging.along * s[1], along_edge);
         trial_.more[m] = d.x, trial_.more[m + 1] = d.y, trial_.more[m + 2] = d.z;
         trial_.turns[j] = trial_.turns[j + 1] = T(0.0);
       }

@@ -192,18 +192,19 @@ struct Swinging {
   }
 };
 
-// Brings a direction back to where the limb may point.
+// Brings a direction back to where the limb may point. `follow`: on to the edge of an ellipse from inside as well.
 template <class T>
-HWY_INLINE V3<T> kept_inside(const Link& link, V3<T> d) {
+HWY_INLINE V3<T> kept_inside(const Link& link, V3<T> d, const Mask<T>& follow = T(0.0) > T(0.0)) {
   const T one(1.0);
   d = d * (one / root(dot(d, d)));
   if (link.swings_freely) return d;
   if (link.swing.kind == Swing::Kind::ellipse) {
     const OnEllipse<T> on(link.swing, d);
-    const T angle = on.angle / root(most(on.level, one));
+    const Mask<T> to_edge = (on.level > one) | (follow & (on.level > T(0.5)));
+    const T angle = on.angle / root(select(to_edge, on.level, one));
     T s, c;
     sine_and_cosine(angle, s, c);
-    return select(on.level > one, V3<T>(link.swing.center) * c + on.radial * s, d);
+    return select(to_edge, V3<T>(link.swing.center) * c + on.radial * s, d);
   }
   // The nearest place of the edge: on one of the great arcs, or else a corner.
   const auto& corners = link.swing.corners;

@@ -40,8 +40,8 @@ struct Placement {
 
 class HingeFigure {
  public:
-  // Throws std::runtime_error where the tree is no free root with balls and universal joints, kFreedoms in all. A ball
-  // with swing limits is taken as free.
+  // Throws std::runtime_error where the tree is no free root with balls and universal joints, kFreedoms in all. Swing
+  // and twist are not known here.
   explicit HingeFigure(BodyTree tree);
 
   const BodyTree& tree() const { return tree_; }

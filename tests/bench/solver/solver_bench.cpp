@@ -9,9 +9,9 @@
 #include <cstdio>
 #include <exception>
 
-#include "server/solver/tempus.h"
 #include "tests/bench/bench_output.h"
 #include "tests/bench/solver/race.h"
+#include "tests/support/figures.h"
 
 namespace {
 
@@ -19,9 +19,9 @@ using namespace posed::test;
 
 constexpr int kProblems = 2000, kQuickProblems = 20, kFrames = 1000, kLeastPeers = 3;
 
-HingeFigure tempus_figure() {
-  auto document = posed::tempus(1.75);
-  auto tree = posed::BodyTree::build(*document);
+// The peers know no swing and twist.
+HingeFigure hinged_human() {
+  auto tree = posed::BodyTree::build(boxed_human());
   return HingeFigure(std::move(*tree));
 }
 
@@ -89,7 +89,7 @@ bool print_gates(const std::vector<Row>& rows) {
 int main(int argc, char** argv) try {
   BenchOutput out(argc, argv);
   stay_on_this_cpu();
-  const HingeFigure figure = tempus_figure();
+  const HingeFigure figure = hinged_human();
   const int count = out.quick() ? kQuickProblems : kProblems;
   const auto sets = problem_sets(figure, out.seed(), count, out.quick() ? 10 * kQuickProblems : kFrames);
   const auto all = contestants(figure);

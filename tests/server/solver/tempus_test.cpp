@@ -1,4 +1,5 @@
 #include "server/solver/tempus.h"
+#include "server/solver/springs/swing.h"
 
 #include <gtest/gtest.h>
 
@@ -76,6 +77,45 @@ TEST(Tempus, IsTheSameOnBothSides) {
       if (!a[k]) continue;
       EXPECT_NEAR(a[k]->max - a[k]->min, b[k]->max - b[k]->min, 1e-12) << left;
     }
+    const Joint &l_joint = tree->joint(*tree->find_segment(left)), &r_joint = tree->joint(*tree->find_segment(right));
+    ASSERT_EQ(l_joint.swing.has_value(), r_joint.swing.has_value());
+    if (!l_joint.swing) continue;
+    EXPECT_EQ(r_joint.swing->center, l_joint.swing->center * Vec3(1, -1, 1)) << left;
+    EXPECT_EQ(r_joint.swing->radii, l_joint.swing->radii) << left;
+    EXPECT_EQ(r_joint.twist->min, -l_joint.twist->max) << left;
+    EXPECT_EQ(r_joint.twist->max, -l_joint.twist->min) << left;
+  }
+}
+
+// Where a person's upper arms and thighs can point and where they can not, with the girdle at rest.
+TEST(Tempus, ShouldersAndHipsPointWhereAPersonsDo) {
+  const auto tree = test::human();
+  const auto points = [&](const char* joint, const Vec3& way) {
+    const int i = *tree->find_joint(joint);
+    springs::Link link;
+    link.kind = springs::LinkKind::limb;
+    link.limb = glm::normalize(tree->segment(i).touch_point);
+    link.swing = *tree->joint(i).swing;
+    const Vec3 d = glm::normalize(way);
+    return glm::length(springs::inside_swing(link, d) - d) < 1e-9;
+  };
+  for (const Vec3& way : {Vec3(0, 1, 0), Vec3(1, 0, 0), Vec3(0, 0, -1), Vec3(0.4, 0.1, 0.9), Vec3(1, -0.6, 0),
+                          Vec3(-0.6, 0, -0.8), Vec3(-0.5, 1, 0), Vec3(0.3, -0.4, -0.9)}) {
+    EXPECT_TRUE(points("left_shoulder", way)) << way.x << " " << way.y << " " << way.z;
+    EXPECT_TRUE(points("right_shoulder", way * Vec3(1, -1, 1)));
+  }
+  for (const Vec3& way : {Vec3(-1, 0, 0), Vec3(0, -1, 0), Vec3(-0.5, -0.5, 0.5), Vec3(-0.7, 0, 0.7)}) {
+    EXPECT_FALSE(points("left_shoulder", way)) << way.x << " " << way.y << " " << way.z;
+    EXPECT_FALSE(points("right_shoulder", way * Vec3(1, -1, 1)));
+  }
+  for (const Vec3& way : {Vec3(0, 0, -1), Vec3(1, 0, 0), Vec3(0.85, 0.1, 0.4), Vec3(-0.4, 0.1, -0.9),
+                          Vec3(0, 0.5, -0.86), Vec3(0, -0.25, -0.97)}) {
+    EXPECT_TRUE(points("left_hip", way)) << way.x << " " << way.y << " " << way.z;
+    EXPECT_TRUE(points("right_hip", way * Vec3(1, -1, 1)));
+  }
+  for (const Vec3& way : {Vec3(0, 0, 1), Vec3(-1, 0, 0), Vec3(0, 1, 0), Vec3(0, -1, 0), Vec3(-0.7, 0, -0.7)}) {
+    EXPECT_FALSE(points("left_hip", way)) << way.x << " " << way.y << " " << way.z;
+    EXPECT_FALSE(points("right_hip", way * Vec3(1, -1, 1)));
   }
 }
 

@@ -5,7 +5,6 @@
 #include "server/solver/kinematics.h"
 #include "server/solver/springs/plan_builder.h"
 #include "server/solver/springs/starts.h"
-#include "server/solver/tempus.h"
 #include "tests/support/freedoms.h"
 #include "tests/support/joint_angles.h"
 #include "tests/support/spring_figures.h"
@@ -92,7 +91,7 @@ TEST(JointAngles, ABoxedBallOnItsSideKeepsItsTurn) {
 
 // Where y ends just at a quarter turn, x and z are told apart no more.
 TEST(JointAngles, ABoxedBallOnItsSideIsReadInsideItsLimits) {
-  FigureDocument d = *tempus(1.75);
+  FigureDocument d = test::boxed_human();
   const int shoulder = *test::build(d)->find_joint("left_shoulder");
   d.segments[static_cast<std::size_t>(shoulder)].joint.limits[1]->min = -M_PI / 2;
   Laid laid(test::build(d));
