@@ -72,6 +72,7 @@ class Descent {
       careful_ = lanes_of<T>() == 1;
       figure_.place(plan, at_);
     }
+    figure_.see_edges(plan);
     pull(plan, at_, figure_, newton_);
     for (int tries = 0;; ++tries) {
       const T damping = factor_ * most(cost_, T(tuning_.least_cost));

@@ -157,8 +157,7 @@ void Explainer::report_posture(const Plan& plan, const State& state, const Postu
     if (link.kind == LinkKind::limb) {  // whose degrees of freedom are not at right angles
       const double* more = state.more.data() + link.more;
       const Vec3 direction(more[0], more[1], more[2]);
-      const Quat at = shortest_arc(link.limb, direction, perpendicular(link.limb, kX)) *
-                      quat_about(link.limb, state.turns[first + 2]);
+      const Quat at = shortest_arc(link.limb, direction, link.side) * quat_about(link.limb, state.turns[first + 2]);
       const double* rest = plan.spring_more.data() + link.more;
       const Quat apart = glm::conjugate(quat_from_xyzw(std::span<const double>(rest, 4))) * at;
       off = 2.0 * std::atan2(glm::length(Vec3(apart.x, apart.y, apart.z)), std::abs(apart.w));

@@ -17,7 +17,7 @@ std::size_t at(int i) {
 }
 
 Quat swing_of(const Link& link, const Vec3& direction) {
-  return shortest_arc(link.limb, direction, perpendicular(link.limb, kX));
+  return shortest_arc(link.limb, direction, link.side);
 }
 
 std::array<AngleRange, 3> ranges_of(const Dof* dofs) {

@@ -35,6 +35,7 @@ class Kinematics {
   void resize(const Plan& plan) {
     placed_.resize(plan.links.size());
     swings_.resize(plan.links.size());
+    frames_.resize(plan.links.size());
     axes_.resize(plan.dofs.size());
     sine_.resize(plan.dofs.size() + kLanes);
     cosine_.resize(plan.dofs.size() + kLanes);
@@ -43,6 +44,22 @@ class Kinematics {
   void place(const Plan& plan, const Steps<T>& at) {
     sines(at.turns.data(), plan.dofs.size(), sine_.data(), cosine_.data());
     for (std::size_t i = 0; i < plan.links.size(); ++i) place_link(plan, i, at);
+  }
+
+  // Where limbs may go from here. Their axes, and what swinging() has, are those of the last call.
+  void see_edges(const Plan& plan) {
+    for (std::size_t i = 0; i < plan.links.size(); ++i) {
+      const Link& link = plan.links[i];
+      if (link.kind != LinkKind::limb) continue;
+      Swinging<T>& swinging = swings_[i];
+      swinging.see(link);
+      const M3<T>& r = frames_[i];
+      const auto first = static_cast<std::size_t>(link.dof);
+      axes_[first] = r * swinging.turn_out, axes_[first + 1] = r * swinging.turn_along;
+      axes_[first + 2] = r * swinging.direction;
+      swinging.bend_out = r * swinging.bend_out, swinging.bend_both = r * swinging.bend_both;
+      swinging.bend_along = r * swinging.bend_along;
+    }
   }
 
   const Placed<T>& placed(int link) const { return placed_[static_cast<std::size_t>(link)]; }
@@ -74,11 +91,8 @@ class Kinematics {
       r = r * matrix<T>(more[0], more[1], more[2], more[3]);
     } else if (link.kind == LinkKind::limb) {
       Swinging<T>& swinging = swings_[i];
-      swinging.see(link, {more[0], more[1], more[2]});
-      axes_[first] = r * swinging.turn_out, axes_[first + 1] = r * swinging.turn_along;
-      axes_[first + 2] = r * swinging.direction;
-      swinging.bend_out = r * swinging.bend_out, swinging.bend_both = r * swinging.bend_both;
-      swinging.bend_along = r * swinging.bend_along;
+      swinging.point(link, {more[0], more[1], more[2]});
+      frames_[i] = r;
       r = r * (swinging.rotation * about(V3<T>(link.limb), sine_[first + 2], cosine_[first + 2]));
     } else {
       for (std::size_t j = first; j < first + static_cast<std::size_t>(link.dofs); ++j)
@@ -124,6 +138,7 @@ class Kinematics {
 
   Memory<Placed<T>> placed_;
   Memory<Swinging<T>> swings_;
+  Memory<M3<T>> frames_;  // of limbs: world_from_joint, before their own turn
   Memory<V3<T>> axes_;
   Memory<T> sine_, cosine_;
 };

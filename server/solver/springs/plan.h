@@ -50,8 +50,11 @@ struct Link {
   Vec3 mass_point{0.0, 0.0, 0.0};
   double mass = 0.0;
   // limb
-  Vec3 limb{0.0, 0.0, 1.0};  // direction at rest, unit
-  Swing swing;               // center is set
+  Vec3 limb{0.0, 0.0, 1.0};                // direction at rest, unit
+  Vec3 side{1.0, 0.0, 0.0};                // across it, unit
+  Swing swing;                             // center is set
+  std::array<Vec3, 2> swing_axes{kX, kY};  // of an ellipse: t0 and t1 of common/figure.h
+  double surely_inside = 2.0;              // the cosine of an ellipse's lesser radius
   bool swings_freely = false;
 };
 

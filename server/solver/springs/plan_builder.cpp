@@ -81,12 +81,7 @@ void add_dofs(const Joint& joint, LinkKind kind, double effort, Plan& plan) {
 
 void set_limb(const Segment& segment, Link& link) {
   const double length = glm::length(segment.touch_point);
-  link.limb = length > 0.0 ? segment.touch_point / length : kZ;
-  const Joint& joint = segment.joint;
-  link.swings_freely = !joint.swing;
-  if (!joint.swing) return;
-  link.swing = *joint.swing;
-  if (link.swing.center == kZero) link.swing.center = link.limb;
+  make_limb(length > 0.0 ? segment.touch_point / length : kZ, segment.joint.swing, link);
 }
 
 // The share of the body's mass that each joint moves; without masses, of its segments.

@@ -49,6 +49,7 @@ void Probe::place(const Plan& plan, const State& state) {
   std::copy(state.turns.begin(), state.turns.end(), inside_->at.turns.begin());
   std::copy(state.more.begin(), state.more.end(), inside_->at.more.begin());
   inside_->figure.place(plan, inside_->at);
+  inside_->figure.see_edges(plan);
 }
 
 TermErrors Probe::errors(const Plan& plan, const Term& term) const {

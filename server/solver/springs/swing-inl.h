@@ -32,10 +32,9 @@ struct OnEllipse {
   T across[2];     // u over the radii
   T level;         // 1: on the edge
 
-  HWY_INLINE OnEllipse(const Swing& swing, const V3<T>& d) {
-    const V3<T> c(swing.center);
-    const V3<T> t0(perpendicular(swing.center, std::abs(swing.center.x) > 0.999999 ? kY : kX));
-    const V3<T> t1 = cross(c, t0);
+  HWY_INLINE OnEllipse(const Link& link, const V3<T>& d) {
+    const Swing& swing = link.swing;
+    const V3<T> c(swing.center), t0(link.swing_axes[0]), t1(link.swing_axes[1]);
     const T cosine = dot(c, d);
     const V3<T> side = d - c * cosine;
     const T sine = root(dot(side, side));
@@ -82,31 +81,39 @@ struct Swinging {
   // (bend_out x^2 + 2 bend_both x y + bend_along y^2) / 2.
   V3<T> bend_out, bend_both, bend_along;
 
-  HWY_INLINE void see(const Link& link, const V3<T>& d) {
+  // The limb's direction and rotation; `see` has all the rest.
+  HWY_INLINE void point(const Link& link, const V3<T>& d) {
     const T zero(0.0), one(1.0);
     direction = d;
     const V3<T> p(link.limb);
     const V3<T> v = cross(p, d);
     const T c = dot(p, d);
     // 1 + c, without its loss of digits where the limb points backwards
-    const T near_turned = select(c < zero, most(dot(v, v), T(1e-30)) / (one - c), one + c);
-    const V3<T> q = v * (one / near_turned);
+    inverse_turned_ = one / select(c < zero, most(dot(v, v), T(1e-30)) / (one - c), one + c);
+    const V3<T> q = v * inverse_turned_;
     rotation = {{c + q.x * v.x, q.x * v.y + v.z, q.x * v.z - v.y},
                 {q.y * v.x - v.z, c + q.y * v.y, q.y * v.z + v.x},
                 {q.z * v.x + v.y, q.z * v.y - v.x, c + q.z * v.z}};
     // Straight backwards any arc is shortest: it turns about the same axis as shortest_arc.
     const Mask<T> backwards = c < T(-1.0 + 1e-14);
-    const V3<T> n(perpendicular(link.limb, kX)), n2 = n * T(2.0);
+    if (!any(backwards)) return;
+    const V3<T> n(link.side), n2 = n * T(2.0);
     rotation = {select(backwards, n2 * n.x - V3<T>(kX), rotation.x),
                 select(backwards, n2 * n.y - V3<T>(kY), rotation.y),
                 select(backwards, n2 * n.z - V3<T>(kZ), rotation.z)};
+  }
+
+  // The edge of where it may point, and how its steps turn it.
+  HWY_INLINE void see(const Link& link) {
+    const T zero(0.0), one(1.0);
+    const V3<T> d = direction, p(link.limb);
     on_edge = curvature = zero;
     back = T(-kFarAhead), room = ahead = T(kFarAhead);
     round_back[0] = round_back[1] = round_ahead[0] = round_ahead[1] = zero;
-    out = V3<T>(perpendicular(link.limb, kX));
+    out = V3<T>(link.side);
     if (link.swings_freely) {
     } else if (link.swing.kind == Swing::Kind::ellipse) {
-      const OnEllipse<T> on(link.swing, d);
+      const OnEllipse<T> on(link, d);
       out = on.outward(link.swing, d, room);
       on_edge = select(on.level >= T(1.0 - kOnEdge), one, zero);
     } else {
@@ -124,8 +131,8 @@ struct Swinging {
     out = out - d * dot(out, d);
     out = out * (one / most(root(dot(out, out)), T(1e-9)));
     along = cross(d, out);
-    if (any(on_edge > zero)) follow_edge(link.swing);
-    const T po = dot(p, out), pa = dot(p, along), w = one / near_turned, half(0.5);
+    if (any(on_edge > zero)) follow_edge(link);
+    const T po = dot(p, out), pa = dot(p, along), w = inverse_turned_, half(0.5);
     const T a = pa * w, b = po * w;
     turn_out = along - d * a;
     turn_along = d * b - out;
@@ -163,7 +170,8 @@ struct Swinging {
   }
 
   // To the corners, which a step along meets exactly; of an ellipse how it bends.
-  HWY_INLINE void follow_edge(const Swing& swing) {
+  HWY_INLINE void follow_edge(const Link& link) {
+    const Swing& swing = link.swing;
     const T zero(0.0), one(1.0), tiny(1e-12);
     if (swing.kind == Swing::Kind::polygon) {
       for_edges(swing, [&](const V3<T>& inward) {
@@ -185,11 +193,13 @@ struct Swinging {
       V3<T> there = direction + along * step;
       there = there * (one / root(dot(there, there)));
       T unused;
-      return OnEllipse<T>(swing, there).outward(swing, there, unused);
+      return OnEllipse<T>(link, there).outward(swing, there, unused);
     };
     const T little(kLittle);
     curvature = dot(along, out_at(little) - out_at(-little)) * T(0.5 / kLittle);
   }
+
+  T inverse_turned_;  // 1 / (1 + cosine of the swing)
 };
 
 // Brings a direction back to where the limb may point. `follow`: on to the edge of an ellipse from inside as well.
@@ -199,8 +209,10 @@ HWY_INLINE V3<T> kept_inside(const Link& link, V3<T> d, const Mask<T>& follow = 
   d = d * (one / root(dot(d, d)));
   if (link.swings_freely) return d;
   if (link.swing.kind == Swing::Kind::ellipse) {
-    const OnEllipse<T> on(link.swing, d);
+    if (!any((dot(V3<T>(link.swing.center), d) <= T(link.surely_inside)) | follow)) return d;
+    const OnEllipse<T> on(link, d);
     const Mask<T> to_edge = (on.level > one) | (follow & (on.level > T(0.5)));
+    if (!any(to_edge)) return d;
     const T angle = on.angle / root(select(to_edge, on.level, one));
     T s, c;
     sine_and_cosine(angle, s, c);

@@ -93,9 +93,7 @@ TEST(Tempus, ShouldersAndHipsPointWhereAPersonsDo) {
   const auto points = [&](const char* joint, const Vec3& way) {
     const int i = *tree->find_joint(joint);
     springs::Link link;
-    link.kind = springs::LinkKind::limb;
-    link.limb = glm::normalize(tree->segment(i).touch_point);
-    link.swing = *tree->joint(i).swing;
+    springs::make_limb(glm::normalize(tree->segment(i).touch_point), tree->joint(i).swing, link);
     const Vec3 d = glm::normalize(way);
     return glm::length(springs::inside_swing(link, d) - d) < 1e-9;
   };

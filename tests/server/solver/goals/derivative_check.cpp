@@ -99,7 +99,8 @@ State moved(const springs::Plan& plan, State state, std::size_t i, int k, double
     turn(axes[k], by, more);
   } else if (link.kind == LinkKind::limb && k < 2) {
     here::Swinging<double> swinging;
-    swinging.see(link, {more[0], more[1], more[2]});
+    swinging.point(link, {more[0], more[1], more[2]});
+    swinging.see(link);
     const auto& way = k == 0 ? swinging.out : swinging.along;
     const Vec3 d = glm::normalize(Vec3(more[0], more[1], more[2]) + Vec3(way.x, way.y, way.z) * by);
     more[0] = d.x, more[1] = d.y, more[2] = d.z;

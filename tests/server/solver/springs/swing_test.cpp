@@ -11,10 +11,7 @@ namespace {
 
 springs::Link link_with(const Swing& swing, const Vec3& limb = kZ) {
   springs::Link link;
-  link.kind = springs::LinkKind::limb;
-  link.limb = limb;
-  link.swing = swing;
-  if (link.swing.center == kZero) link.swing.center = limb;
+  springs::make_limb(limb, swing, link);
   return link;
 }
 
