@@ -138,10 +138,10 @@ std::string Conversation::all_trouble() const {
   return trouble_ + "; " + complaint_;
 }
 
-std::string no_answer(unsigned baud) {
+std::string no_answer(std::string_view name, unsigned baud) {
   if (baud == 0) return "the tracker does not answer: switch it off and on";
-  return "the tracker does not answer at " + std::to_string(baud) +
-         " baud: is it switched on, is the cable the right one, do its switches say another rate?";
+  return "the tracker does not answer at " + std::to_string(baud) + " baud: is it switched on, is it a " +
+         std::string(name) + ", is its cable the right one, do its switches say another rate?";
 }
 
 }  // namespace posed::tracker

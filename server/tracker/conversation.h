@@ -54,7 +54,7 @@ class Conversation {
   std::string complaint_;
 };
 
-// Why there is no answer, and what to do; 0 baud: on USB.
-std::string no_answer(unsigned baud);
+// Why there is no answer, and what to do. `name`: of the family, as people write it; 0 baud: on USB.
+std::string no_answer(std::string_view name, unsigned baud);
 
 }  // namespace posed::tracker

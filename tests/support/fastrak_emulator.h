@@ -60,7 +60,7 @@ class FastrakEmulator final : public TrackerEmulator {
   int most() const { return kind_ == Kind::fastrak ? 4 : 2; }
   Bytes record(int station);
   Bytes packed(int station, const SourcePose& pose, char letter) const;
-  void put_item(Bytes& to, int item, const SourcePose& pose) const;
+  void put_item(Bytes& to, int item, const SourcePose& pose, bool button) const;
   void put_numbers(Bytes& to, bool extended, const char* pattern, std::span<const double> numbers) const;
 
   Kind kind_;

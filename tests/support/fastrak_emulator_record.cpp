@@ -27,7 +27,7 @@ Bytes FastrakEmulator::record(int station) {
     pose.z *= 2.54;
   }
   Bytes record{'0', static_cast<std::uint8_t>('0' + station), static_cast<std::uint8_t>(letter)};
-  for (const int item : sensor.list) put_item(record, item, pose);
+  for (const int item : sensor.list) put_item(record, item, pose, station == 1 && button_);
   return record;
 }
 
@@ -42,7 +42,7 @@ void FastrakEmulator::put_numbers(Bytes& to, bool extended, const char* pattern,
   }
 }
 
-void FastrakEmulator::put_item(Bytes& to, int item, const SourcePose& pose) const {
+void FastrakEmulator::put_item(Bytes& to, int item, const SourcePose& pose, bool button) const {
   const bool extended = item >= 50;
   const double xyz[] = {pose.x, pose.y, pose.z}, angles[] = {pose.azimuth, pose.elevation, pose.roll};
   double q[4], m[9];
@@ -70,7 +70,7 @@ void FastrakEmulator::put_item(Bytes& to, int item, const SourcePose& pose) cons
       put_numbers(to, extended, "%7.4f", q);
       break;
     case 16:
-      put_text(to, button_ ? " 1" : " 0");
+      put_text(to, button ? " 1" : " 0");
       break;
     default:
       break;

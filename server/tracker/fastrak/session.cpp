@@ -30,7 +30,7 @@ bool FastrakSession::set_up(Conversation& with) {
   decoder_ = make_decoder(options_);
   stations_.reset();
   if (!with.ask("l1\r", [this] { return stations_.has_value(); })) {
-    with.trouble(no_answer(options_.baud));
+    with.trouble(no_answer("FASTRAK", options_.baud));
     return false;
   }
   if (!with.write("u")) return false;  // centimetres

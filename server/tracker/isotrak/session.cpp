@@ -29,7 +29,7 @@ bool IsotrakSession::set_up(Conversation& with) {
   decoder_ = IsotrakDecoder(format_of(options_));
   stations_.reset();
   if (!with.ask("l1\r", [this] { return stations_.has_value(); })) {
-    with.trouble(no_answer(options_.baud));
+    with.trouble(no_answer("ISOTRAK II", options_.baud));
     return false;
   }
   if (!with.write("u") || !with.write("O2,11\r") || !with.write("f")) return false;

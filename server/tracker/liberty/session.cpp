@@ -49,7 +49,7 @@ bool LibertySession::set_up(Conversation& with) {
   if (!with.ask("\x15"
                 "0\r",
                 [this] { return stations_.has_value(); })) {
-    with.trouble(no_answer(options_.baud));
+    with.trouble(no_answer(options_.family.name, options_.baud));
     return false;
   }
   const int rate_hz = choose_rate(std::popcount(*stations_), with);

@@ -14,14 +14,15 @@ namespace posed::tracker {
 
 struct LibertyFamily {
   std::string_view kind;
+  std::string_view name;
   std::array<char, 2> tag;
   int stations;
   int rate_hz;
   int half_rate_hz;  // that it can be told instead; 0: it has one rate
 };
 
-inline constexpr LibertyFamily kLiberty{"liberty", {'L', 'Y'}, 16, 240, 120};
-inline constexpr LibertyFamily kPatriot{"patriot", {'P', 'A'}, 2, 60, 0};
+inline constexpr LibertyFamily kLiberty{"liberty", "LIBERTY", {'L', 'Y'}, 16, 240, 120};
+inline constexpr LibertyFamily kPatriot{"patriot", "PATRIOT", {'P', 'A'}, 2, 60, 0};
 
 struct LibertyOptions {
   std::string id = "liberty";

@@ -60,7 +60,7 @@ std::optional<std::vector<std::uint8_t>> ViperSession::ask(ViperCommand command,
                                                            std::span<const std::uint32_t> payload) {
   replies_.erase(command);
   if (!with.ask(viper_command(command, action, payload), [&] { return replies_.contains(command); })) {
-    with.trouble(no_answer(0));
+    with.trouble(no_answer("VIPER", 0));
     return std::nullopt;
   }
   const Reply& reply = replies_[command];

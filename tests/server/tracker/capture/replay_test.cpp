@@ -17,6 +17,7 @@
 #include "server/tracker/spacemouse/decoder.h"
 #include "server/tracker/viper/decoder.h"
 #include "tests/support/fastrak_emulator.h"
+#include "tests/support/frames_text.h"
 #include "tests/support/liberty_emulator.h"
 #include "tests/support/viper_emulator.h"
 #include "tests/support/watched_tracker.h"
@@ -35,22 +36,6 @@ struct Replay : testing::Test {
 
   void write(const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
 };
-
-std::string text_of(const std::vector<Frame>& frames, Nanoseconds origin) {
-  std::string all;
-  for (const Frame& frame : frames) {
-    all += frame.device + " " + std::to_string(frame.t_ns - origin);
-    for (const Sample& s : frame.samples) {
-      char line[400];
-      std::snprintf(line, sizeof line, " %d %a %a %a %a %a %a %a %u %u %d %u %lld;", s.station, s.position.x,
-                    s.position.y, s.position.z, s.rotation.x, s.rotation.y, s.rotation.z, s.rotation.w, s.buttons,
-                    s.flags, s.error_letter, s.device_count, static_cast<long long>(s.device_t_ns));
-      all += line;
-    }
-    all += "\n";
-  }
-  return all;
-}
 
 // Chunks of any size, with noise between them and some lost, as a bad line brings them.
 void capture_dirty_line(Decoder& decoder, test::TrackerEmulator& device, Capture& capture, std::vector<Frame>& frames) {
@@ -90,7 +75,7 @@ void expect_same_again(const std::string& path, const std::string& kind, const s
   ASSERT_EQ(again.size(), frames.size());
   // A SpaceMouse's own time is that of the arrival.
   const Nanoseconds shift = again[0].t_ns - frames[0].t_ns;
-  EXPECT_EQ(text_of(again, shift), text_of(frames, 0));
+  EXPECT_EQ(test::frames_text(again, shift), test::frames_text(frames, 0));
   EXPECT_EQ(again[0].device, kind);
 }
 

@@ -1,11 +1,14 @@
 #include "tests/server/tracker/conformance/conformance.h"
 
 #include <chrono>
+#include <cstdlib>
+#include <filesystem>
 #include <random>
 #include <thread>
 #include <vector>
 
 #include "server/tracker/registry.h"
+#include "tests/support/frames_text.h"
 #include "tests/support/watched_tracker.h"
 
 namespace posed::tracker {
@@ -217,6 +220,36 @@ TEST_P(Conformance, SensorsComeAndGo) {
   ASSERT_TRUE(run.wait_for_stations(2));
   bed->with_tracker([](TrackerEmulator& device) { device.unplug_sensor(1); });
   ASSERT_TRUE(run.wait_for_frame([](const Frame& frame) { return frame.samples[0].station == 2; }));
+}
+
+// With noise and a stream that is started anew in it.
+TEST_P(Conformance, ItsCaptureGivesTheSameFramesAgain) {
+  namespace fs = std::filesystem;
+  std::string folder = fs::temp_directory_path() / "captures-XXXXXX";
+  ASSERT_NE(::mkdtemp(folder.data()), nullptr);
+  TrackerOptions options;
+  options.capture_folder = folder;
+  bed->plug();
+  std::vector<Frame> frames;
+  {
+    test::WatchedTracker run([&](TimeSource now) { return std::move(*make_tracker(spec(), std::move(now), options)); });
+    ASSERT_TRUE(run.wait_for_frames(10)) << run.status().message;
+    bed->inject("noise of no tracker");
+    ASSERT_TRUE(run.wait_for_frames(10)) << run.status().message;
+    bed->with_tracker([](TrackerEmulator& device) { device.stop_streaming(); });
+    ASSERT_TRUE(run.wait_for_state(State::silent));
+    ASSERT_TRUE(run.wait_for_frames(10)) << run.status().message;
+    run.stop();
+    frames = run.frames();
+  }
+  const std::string file = fs::directory_iterator(folder)->path();
+  Watched again("replay:" + file + "@fast");
+  ASSERT_TRUE(again.wait_for_message("come to its end after " + std::to_string(frames.size()) + " frames"))
+      << again.status().message;
+  again.stop();
+  const Nanoseconds shift = again.frames().front().t_ns - frames.front().t_ns;
+  EXPECT_EQ(test::frames_text(again.frames(), shift), test::frames_text(frames, 0));
+  fs::remove_all(folder);
 }
 
 }  // namespace posed::tracker
