@@ -57,7 +57,7 @@ struct Place {
   unsigned baud = 0;  // of a serial port
 };
 
-// `usb`, `serial`: what the family has. PATH may hold an @, so the last one counts, and only before a number.
+// `usb`, `serial`: what the family has. A path may hold an @ itself: the last one counts.
 Result<Place> parse_place(std::string_view kind, std::string_view arg, bool usb, bool serial, unsigned baud) {
   const std::string said = std::string(kind) + ":" + std::string(arg);
   if (arg.empty() || arg == "usb") {

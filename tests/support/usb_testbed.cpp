@@ -77,6 +77,7 @@ class UsbTestbed::Kernel {
   std::string node;
   int address = 0;
   std::atomic<bool> plugged{false};
+  std::atomic<int> empty_writes{0};
 };
 
 std::unique_ptr<UsbTestbed> UsbTestbed::make(UsbTestbedOptions options, std::string& reason) {
@@ -92,6 +93,7 @@ std::unique_ptr<UsbTestbed> UsbTestbed::make(UsbTestbedOptions options, std::str
 UsbTestbed::UsbTestbed(UsbTestbedOptions options, std::unique_ptr<TrackerEmulator> device)
     : TrackerTestbed(std::move(device)), options_(std::move(options)) {
   const auto written = [this](std::uint8_t endpoint, const std::vector<std::uint8_t>& bytes) {
+    if (bytes.empty()) ++kernel_->empty_writes;
     if (endpoint == options_.out) with_tracker([&](TrackerEmulator& heard) { heard.write(bytes); });
   };
   kernel_ = std::make_unique<Kernel>(options_.packet, written);
@@ -157,6 +159,12 @@ void UsbTestbed::fail_next_read(int error_number) {
 }
 void UsbTestbed::inject(std::string bytes) {
   kernel_->usbfs.send(options_.in, {bytes.begin(), bytes.end()});
+}
+void UsbTestbed::fail_next_stream_read(int error_number) {
+  kernel_->usbfs.fail_next_read(options_.stream, error_number);
+}
+int UsbTestbed::empty_writes() const {
+  return kernel_->empty_writes;
 }
 int UsbTestbed::claims() const {
   return kernel_->usbfs.claims();

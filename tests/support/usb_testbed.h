@@ -49,7 +49,9 @@ class UsbTestbed final : public TrackerTestbed {
 
   // Faults. Each holds until it is set back to 0.
   void fail_claims(int error_number, int how_often = -1);  // of CLAIMINTERFACE; -1: always
-  void fail_next_read(int error_number);                   // one flying read ends so
+  void fail_next_read(int error_number);                   // one flying read of answers ends so
+  void fail_next_stream_read(int error_number);            // one of the stream's own endpoint
+  int empty_writes() const;                                // that end what fills its packets
   int claims() const;                                      // granted so far
   bool claimed() const;                                    // at present
 

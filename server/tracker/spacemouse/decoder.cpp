@@ -57,8 +57,6 @@ Heard SpacemouseDecoder::feed(std::span<const std::uint8_t> report, Nanoseconds 
     if (id <= kButtons) bad_bytes_ += report.size();
     return out;
   }
-  ++sample_.device_count;
-  sample_.device_t_ns = now;
   out.frames.push_back({now, format_.device, {sample_}});
   return out;
 }

@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <string_view>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -48,11 +49,21 @@ bool describes_spacemouse(const fs::path& uevent) {
   return false;
 }
 
+// A receiver shows itself as several devices, one of which is the cap: usage page 1, usage 8 (multi-axis controller) at
+// the beginning of its report descriptor. Where that cannot be read, it is believed.
+bool has_cap(const fs::path& descriptor) {
+  std::ifstream file(descriptor, std::ios::binary);
+  char begin[4] = {};
+  if (!file.read(begin, sizeof begin)) return true;
+  return std::string_view(begin, sizeof begin) == std::string_view("\x05\x01\x09\x08", 4);
+}
+
 std::vector<std::string> nodes_of(const HidrawPaths& paths) {
   std::vector<std::string> found;
   std::error_code error;
   for (fs::directory_iterator at(paths.descriptions, error), end; !error && at != end; at.increment(error)) {
-    if (describes_spacemouse(at->path() / "device" / "uevent")) {
+    const fs::path device = at->path() / "device";
+    if (describes_spacemouse(device / "uevent") && has_cap(device / "report_descriptor")) {
       found.push_back(paths.nodes + "/" + at->path().filename().string());
     }
   }

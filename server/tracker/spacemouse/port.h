@@ -1,7 +1,7 @@
 // A SpaceMouse through hidraw, opened for reading alone and beside all others: its LED, and programs that also read it,
 // stay as they are.
-// Source: the kernel's hidraw documentation (a read is one report); product ids as spacenavd and PySpaceMouse have
-// them.
+// Source: the kernel's hidraw documentation (a read is one report); HID usage tables (multi-axis controller); product
+// ids as spacenavd and PySpaceMouse have them.
 #pragma once
 
 #include <memory>

@@ -49,7 +49,7 @@ TEST(LibertyOnSerial, TheRateIsWhatTheLineCarries) {
     EXPECT_EQ(run.status().message.find("baud do not carry") == std::string::npos, c.fits) << run.status().message;
     run.stop();
     // The device's own time counts with the rate that was chosen.
-    const Sample& sample = run.frames().back().samples[0];
+    const Sample sample = run.frames().back().samples[0];
     EXPECT_EQ(sample.device_t_ns, Nanoseconds{sample.device_count} * 1'000'000'000 / c.rate_hz);
   }
 }

@@ -115,6 +115,16 @@ TEST_F(SpacemousePortTest, OtherDevicesAreLeftAlone) {
   EXPECT_EQ(opened.state, State::searching);
 }
 
+// As a receiver shows itself: a keyboard of sorts first, then the cap.
+TEST_F(SpacemousePortTest, TheInterfaceWithTheCapIsTaken) {
+  plug("hidraw5", "0003:0000256F:0000C652");
+  std::ofstream(top_ / "class/hidraw5/device/report_descriptor", std::ios::binary) << "\x05\x01\x09\x08\xa1\x01";
+  describe("hidraw4", "0003:0000256F:0000C652");
+  std::ofstream(top_ / "class/hidraw4/device/report_descriptor", std::ios::binary) << "\x05\x01\x09\x06\xa1\x01";
+  SpacemousePort port([] { return Nanoseconds{0}; }, paths());
+  EXPECT_TRUE(port.open([] { return false; }).line);
+}
+
 TEST_F(SpacemousePortTest, ADescriptionWithoutANodeIsToldOf) {
   describe("hidraw0", "0003:0000256F:0000C635");
   SpacemousePort port([] { return Nanoseconds{0}; }, paths());

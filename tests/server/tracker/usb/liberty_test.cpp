@@ -163,6 +163,27 @@ TEST_F(LibertyOnUsb, WithoutFirmwareTheCureIsTold) {
   EXPECT_EQ(bed->claims(), 0);
 }
 
+TEST_F(LibertyOnUsb, AnotherFamilyOnTheBusIsToldOf) {
+  UsbTestbedOptions options;
+  options.product = 0xef12;
+  SET_UP(options);
+  bed->plug();
+  Watched run;
+  ASSERT_TRUE(run.wait_for_message("no LIBERTY is on USB"));
+  EXPECT_NE(run.status().message.find("a PATRIOT is there: --tracker patriot"), std::string::npos);
+  EXPECT_EQ(bed->claims(), 0);
+}
+
+TEST_F(LibertyOnUsb, ATrackerThatNobodyServesIsToldOf) {
+  UsbTestbedOptions options;
+  options.product = 0x0003;
+  SET_UP(options);
+  bed->plug();
+  Watched run;
+  ASSERT_TRUE(run.wait_for_message("a FASTRAK 3 is there, which posed does not serve yet"));
+  EXPECT_EQ(bed->claims(), 0);
+}
+
 TEST_F(LibertyOnUsb, TheLegacyModelHasOtherEndpointsAndPackets) {
   UsbTestbedOptions options;
   options.product = 0xff12;
