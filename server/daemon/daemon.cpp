@@ -26,7 +26,8 @@ std::vector<std::unique_ptr<tracker::Tracker>> make_trackers(const Config& confi
   tracker::TrackerOptions options;
   options.capture_folder = config.captures;
   for (const std::string& spec : config.trackers) {
-    auto made = tracker::make_tracker(spec, [&clock] { return clock.now(); }, options);
+    auto made = tracker::make_tracker(
+        spec, [&clock] { return clock.now(); }, options);
     if (!made) {
       const Error& error = made.error();
       throw std::runtime_error("--tracker " + spec + ": " + error.message +
