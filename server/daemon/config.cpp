@@ -61,8 +61,12 @@ std::optional<Config> read_config(int argc, const char* const* argv, int& exit_c
   // Dots are part of our names, not sections of the file.
   app.get_config_formatter_base()->parentSeparator('\x1f');
   app.add_option("--listen", listen, "HOST:PORT of JSON lines, WebSocket and the viewer")->capture_default_str();
-  app.add_option("--tracker", config.trackers, "KIND[:ARG]: simulated[:SEED], liberty; may be given again")
+  app.add_option("--tracker", config.trackers,
+                 "KIND[:ARG]: simulated[:SEED], liberty, patriot, fastrak, isotrak, viper, spacemouse, each [:usb] or "
+                 "[:/dev/ttyS0[@BAUD]] as it has it; replay:FILE[@fast]; may be given again")
       ->allow_extra_args(false);
+  app.add_option("--capture", config.captures,
+                 "a folder: trackers write there what they hear, for --tracker replay:FILE");
   app.add_option("--data", config.data, "the folder of what must survive")->capture_default_str();
   app.add_option("--log", level, "debug, info, warning or error")
       ->check(CLI::IsMember({"debug", "info", "warning", "error"}));

@@ -15,6 +15,7 @@ struct Config {
   std::string host = "127.0.0.1";
   std::uint16_t port = 19870;
   std::vector<std::string> trackers;  // KIND[:ARG]
+  std::filesystem::path captures;     // where trackers write what they hear; empty: nowhere
   std::filesystem::path data;
   std::filesystem::path viewer;
   std::filesystem::path scenes;

@@ -23,8 +23,11 @@ net::Options network_options(const Config& config) {
 std::vector<std::unique_ptr<tracker::Tracker>> make_trackers(const Config& config, const Clock& clock) {
   std::vector<std::unique_ptr<tracker::Tracker>> trackers;
   std::set<std::string> ids;
+  tracker::TrackerOptions options;
+  options.capture_folder = config.captures;
   for (const std::string& spec : config.trackers) {
-    auto made = tracker::make_tracker(spec, [&clock] { return clock.now(); });
+    auto made = tracker::make_tracker(
+        spec, [&clock] { return clock.now(); }, options);
     if (!made) {
       const Error& error = made.error();
       throw std::runtime_error("--tracker " + spec + ": " + error.message +

@@ -28,12 +28,6 @@ void FrameAssembler::add(Sample sample, Nanoseconds now, std::vector<Frame>& out
   }
 }
 
-void FrameAssembler::reset() {
-  pending_ = Frame{};
-  closed_station_ = 0;
-  last_rotation_.clear();
-}
-
 bool FrameAssembler::opens_another_cycle(const Sample& sample) const {
   if (pending_.samples.empty()) return false;
   const Sample& last = pending_.samples.back();

@@ -21,7 +21,6 @@ class FrameAssembler {
   // daemon's clock; appends the Frames that it completes. A Frame's t_ns is the arrival of its last sample. Rotations
   // come out sign-continuous a station.
   void add(Sample sample, Nanoseconds now, std::vector<Frame>& out);
-  void reset();  // forgets the samples in hand, keeps what is known of the stations
 
  private:
   bool opens_another_cycle(const Sample& sample) const;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -11,13 +12,22 @@
 
 namespace posed::tracker {
 
-// `spec` is KIND[:ARG], as after --tracker:
-//   simulated[:SEED[@RATE]]  two sensors that swing; RATE in Hz, 1..1000
-//   liberty[:usb]            a LIBERTY on USB
-// The tracker's id is its kind. Errors: not_available for a family that is known and not served yet, invalid_params for
-// a word that is none, each with a hint.
-Result<std::unique_ptr<Tracker>> make_tracker(std::string_view spec, TimeSource now);
+struct TrackerOptions {
+  std::string capture_folder;  // where each tracker on a line writes what it hears (ID-UTC.capture); empty: nowhere
+};
 
-std::vector<std::string_view> tracker_kinds();  // all that are known, served or not
+// `spec` is KIND[:ARG], as after --tracker:
+//   simulated[:SEED[@RATE]]   two sensors that swing; RATE in Hz, 1..1000
+//   liberty patriot fastrak   on USB (KIND or KIND:usb), or at a serial port: KIND:/dev/ttyS0[@BAUD]
+//   isotrak:/dev/ttyS0[@BAUD]
+//   viper[:usb]
+//   spacemouse[:usb]          through hidraw
+//   replay:FILE[@fast]        a capture, at its own pace or flat out
+// The tracker's id is its kind; a replay's is that of the tracker that was captured. Errors: invalid_params for a word
+// that is none and a place that cannot be, not_available for a file that cannot be read or written; each with a hint.
+Result<std::unique_ptr<Tracker>> make_tracker(std::string_view spec, TimeSource now,
+                                              const TrackerOptions& options = {});
+
+std::vector<std::string_view> tracker_kinds();  // all that there are
 
 }  // namespace posed::tracker

@@ -16,6 +16,7 @@ class StatusBoard {
   StatusBoard(Sink sink, double rate_hz);
 
   void set(State state, std::string message);
+  void set_rate(double hz) { status_.rate_hz = hz; }
   void pass_on(Frame frame);  // counts it first
   void add_bad_bytes(std::uint64_t count) { status_.bad_bytes += count; }
   void tick();  // call often: says the once-a-second status where it is due

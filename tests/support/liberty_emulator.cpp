@@ -3,14 +3,14 @@
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
-#include "tests/support/liberty_pack.h"
+#include "tests/support/emulator_pack.h"
 
 namespace posed::test {
 namespace {
 
 constexpr std::size_t kFifo = 2300;
-constexpr int kMaxStation = 16;
 
 enum ErrorCode { kInvalidCommand = 1, kInvalidStation = 2, kInvalidParameter = 3, kTooFew = 4, kTooMany = 5 };
 
@@ -30,18 +30,14 @@ bool matches_station(const std::string& field, int station) {
   return field == "*" || std::atoi(field.c_str()) == station;
 }
 
-bool valid_station(const std::string& field) {
-  return field == "*" || (std::atoi(field.c_str()) >= 1 && std::atoi(field.c_str()) <= kMaxStation);
+bool valid_station(const std::string& field, int most) {
+  return field == "*" || (std::atoi(field.c_str()) >= 1 && std::atoi(field.c_str()) <= most);
 }
 
 }  // namespace
 
-LibertyEmulator::LibertyEmulator(int stations) {
+LibertyEmulator::LibertyEmulator(int stations, LibertyKind kind) : kind_(std::move(kind)) {
   for (int station = 1; station <= stations; ++station) plug_sensor(station);
-}
-
-void LibertyEmulator::write(std::string_view text) {
-  write(std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
 }
 
 void LibertyEmulator::write(std::span<const std::uint8_t> bytes) {
@@ -62,6 +58,7 @@ void LibertyEmulator::write(std::span<const std::uint8_t> bytes) {
 
 void LibertyEmulator::tick() {
   if (frozen_) return;
+  if (rate_ == 3 && ++ticks_ % 2 != 0) return;
   ++count_;
   if (!continuous_) return;
   Bytes bytes = cycle('C');
@@ -72,11 +69,36 @@ void LibertyEmulator::tick() {
   if (waiting + bytes.size() <= kFifo) output_.push_back({std::move(bytes), true});
 }
 
+std::deque<TrackerEmulator::Output> LibertyEmulator::drain() {
+  return std::exchange(output_, {});
+}
+
 std::deque<std::vector<std::uint8_t>> LibertyEmulator::take() {
   std::deque<std::vector<std::uint8_t>> taken;
-  for (Output& output : output_) taken.push_back(std::move(output.bytes));
-  output_.clear();
+  for (Output& output : drain()) taken.push_back(std::move(output.bytes));
   return taken;
+}
+
+void LibertyEmulator::power_cycle() {
+  const std::map<int, SensorState> before = std::exchange(sensors_, {});
+  for (const auto& [station, sensor] : before) {
+    if (!sensor.detected) continue;
+    plug_sensor(station);
+    sensors_[station].pose = sensor.pose;
+  }
+  line_.clear();
+  output_.clear();
+  count_ = 0;
+  rate_ = 4;
+  continuous_ = binary_ = centimetres_ = echo_ = false;
+  buffering_ = true;
+  Bytes banner;
+  put_text(banner, kind_.banner + "\r\n");
+  if (on_serial_) output_.push_back({std::move(banner), false});
+}
+
+void LibertyEmulator::left_streaming() {
+  write("F1\rU0\rO*,8,9,11,3,7\rC\rO*,8");
 }
 
 void LibertyEmulator::execute(const std::string& line) {
@@ -108,7 +130,7 @@ void LibertyEmulator::set(char command, const Arguments& arguments, const std::s
   if (command == 'O') return set_list(arguments, line);
   if (command == 0x15) return set_stations(arguments, line);
   if (command == 'H') {
-    if (!valid_station(arguments[0])) return complain(command, kInvalidStation, line);
+    if (!valid_station(arguments[0], kind_.stations)) return complain(command, kInvalidStation, line);
     if (arguments.size() != 4) return complain(command, arguments.size() < 4 ? kTooFew : kTooMany, line);
     for (auto& [station, sensor] : sensors_) {
       for (std::size_t i = 0; i < 3 && matches_station(arguments[0], station); ++i) {
@@ -116,6 +138,7 @@ void LibertyEmulator::set(char command, const Arguments& arguments, const std::s
       }
     }
   } else if (command == 'R') {
+    if (kind_.rate_hz != 240) return complain(command, kInvalidParameter, line);
     if (value != 3 && value != 4) return complain(command, kInvalidParameter, line);
     rate_ = value;
   } else if (command == 'Q') {
@@ -132,7 +155,7 @@ void LibertyEmulator::set(char command, const Arguments& arguments, const std::s
 }
 
 void LibertyEmulator::set_list(const Arguments& arguments, const std::string& line) {
-  if (!valid_station(arguments[0])) return complain('O', kInvalidStation, line);
+  if (!valid_station(arguments[0], kind_.stations)) return complain('O', kInvalidStation, line);
   if (arguments.size() > 21) return complain('O', kTooMany, line);
   std::vector<int> list;
   for (std::size_t i = 1; i < arguments.size(); ++i) {
@@ -140,7 +163,7 @@ void LibertyEmulator::set_list(const Arguments& arguments, const std::string& li
     if (arguments[i].empty() || item < 0 || item > 12) return complain('O', kInvalidParameter, line);
     list.push_back(item);
   }
-  for (int station = 1; station <= kMaxStation; ++station) {
+  for (int station = 1; station <= kind_.stations; ++station) {
     if (matches_station(arguments[0], station)) sensors_[station].list = list;
   }
   commands_.push_back(line);
@@ -148,7 +171,7 @@ void LibertyEmulator::set_list(const Arguments& arguments, const std::string& li
 
 void LibertyEmulator::set_stations(const Arguments& arguments, const std::string& line) {
   const int station = std::atoi(arguments[0].c_str());
-  if (station > kMaxStation) return complain(0x15, kInvalidStation, line);
+  if (station > kind_.stations) return complain(0x15, kInvalidStation, line);
   commands_.push_back(line);
   if (arguments.size() == 1) return query(0x15, station);
   if (station != 0) {
@@ -156,7 +179,7 @@ void LibertyEmulator::set_stations(const Arguments& arguments, const std::string
     return;
   }
   const unsigned long map = std::strtoul(arguments[1].c_str(), nullptr, 16);
-  for (int i = 0; i < kMaxStation; ++i) sensors_[i + 1].active = (map >> i & 1) != 0;
+  for (int i = 0; i < kind_.stations; ++i) sensors_[i + 1].active = (map >> i & 1) != 0;
 }
 
 void LibertyEmulator::query(char command, int station) {
@@ -198,7 +221,7 @@ void LibertyEmulator::query(char command, int station) {
 
 void LibertyEmulator::answer(char command, int station, const Bytes& body, const std::string& text) {
   if (binary_) {
-    output_.push_back({liberty_frame(station, static_cast<std::uint8_t>(command), 0, body), false});
+    output_.push_back({framed(station, command, 0, body), false});
     return;
   }
   // Two digits of the station, the letter (lower case for control commands), the error, a blank.
@@ -213,8 +236,24 @@ void LibertyEmulator::complain(char command, int error, const std::string& line)
       "", "Invalid Command", "Invalid Station", "Invalid Parameter", "Too Few Parameters", "Too Many Parameters"};
   Bytes text;
   put_text(text, std::string("*** ") + kNames[error] + " ***" + line + "\r\n");
-  if (binary_) text = liberty_frame(0, static_cast<std::uint8_t>(command), static_cast<std::uint8_t>(error), text);
+  if (binary_) text = framed(0, command, error, text);
   output_.push_back({std::move(text), false});
+}
+
+Bytes LibertyEmulator::framed(int station, char command, int error, const Bytes& body) const {
+  return liberty_frame(station, static_cast<std::uint8_t>(command), static_cast<std::uint8_t>(error), body, kind_.tag);
+}
+
+Bytes liberty_frame(int station, std::uint8_t command, std::uint8_t error, const Bytes& body, const std::string& tag) {
+  Bytes frame{static_cast<std::uint8_t>(tag[0]),
+              static_cast<std::uint8_t>(tag[1]),
+              static_cast<std::uint8_t>(station),
+              command,
+              error,
+              0};
+  put_u16(frame, static_cast<std::uint32_t>(body.size()));
+  frame.insert(frame.end(), body.begin(), body.end());
+  return frame;
 }
 
 }  // namespace posed::test

@@ -1,53 +1,56 @@
-// A LIBERTY in software, as its manual describes it: bytes written to it are commands, tick() is one measurement cycle,
-// take() is what waits to be read. Written from the manual and not from posed's decoder, so that the two can disagree.
-// Source: LIBERTY User Manual URM03PH156 Rev H. Pure; one thread (lock around it otherwise).
+// A LIBERTY or PATRIOT in software, as the LIBERTY's manual describes it; the PATRIOT takes the same commands.
+// Source: LIBERTY User Manual URM03PH156 Rev H, tables 2-19 and 2-46.
 #pragma once
 
 #include <array>
-#include <cstdint>
-#include <deque>
-#include <functional>
 #include <map>
-#include <span>
 #include <string>
-#include <string_view>
-#include <vector>
+
+#include "tests/support/emulator_pack.h"
+#include "tests/support/tracker_emulator.h"
 
 namespace posed::test {
 
-// Source frame (X forward, Y right, Z down); inches and degrees, which is what the device itself thinks in.
-struct LibertyPose {
-  double x = 10.0, y = -2.5, z = 3.25;
-  double azimuth = 45.0, elevation = -30.0, roll = 15.0;
+using LibertyPose = SourcePose;
+
+struct LibertyKind {
+  std::string tag = "LY", banner = "LIBERTY Ready!";
+  int stations = 16;
+  int rate_hz = 240;
 };
 
-class LibertyEmulator {
+inline const LibertyKind kPatriotKind{"PA", "Patriot Ready!", 2, 60};
+
+class LibertyEmulator final : public TrackerEmulator {
  public:
-  explicit LibertyEmulator(int stations = 2);  // that are plugged in, from 1 on
+  explicit LibertyEmulator(int stations = 2, LibertyKind kind = {});  // that are plugged in, from 1 on
 
-  void write(std::span<const std::uint8_t> bytes);  // to its OUT endpoint
-  void write(std::string_view text);
-  void tick();  // one measurement cycle: the count goes on, and a frame comes out where the device streams
-  // What a read gets: each element is one answer or one cycle's frames. With USB buffering off only the newest cycle
-  // waits, with it on at most 2300 bytes do.
-  std::deque<std::vector<std::uint8_t>> take();
+  using TrackerEmulator::write;
+  void write(std::span<const std::uint8_t> bytes) override;  // to its OUT endpoint, or its serial line
+  int rate_hz() const override { return kind_.rate_hz; }
+  void tick() override;
+  // With USB buffering off only the newest cycle waits, with it on at most 2300 bytes do.
+  std::deque<Output> drain() override;
+  std::deque<std::vector<std::uint8_t>> take();  // the same, as bytes
   bool has_output() const { return !output_.empty(); }
+  void power_cycle() override;
+  void left_streaming() override;
+  void set_on_serial(bool on) { on_serial_ = on; }  // it says its banner there, and not on USB
 
-  // The hand on the plugs, and on what the device measures.
-  void plug_sensor(int station) { sensors_[station].detected = sensors_[station].active = true; }
-  void unplug_sensor(int station) { sensors_[station].detected = false; }
-  void set_pose(int station, LibertyPose pose) { sensors_[station].pose = pose; }
-  void set_motion(std::function<LibertyPose(int station, std::uint32_t count)> motion) { motion_ = std::move(motion); }
-  void set_error_letter(int station, char letter) { sensors_[station].letter = letter; }
+  void plug_sensor(int station) override { sensors_[station].detected = sensors_[station].active = true; }
+  void unplug_sensor(int station) override { sensors_[station].detected = false; }
+  void set_pose(int station, SourcePose pose) override { sensors_[station].pose = pose; }
+  void set_motion(Motion motion) override { motion_ = std::move(motion); }
+  void set_error_letter(int station, char letter) override { sensors_[station].letter = letter; }
   void set_distortion(int station, int level) { sensors_[station].distortion = level; }
   void set_count(std::uint32_t count) { count_ = count; }
-  void set_frozen(bool frozen) { frozen_ = frozen; }  // measures nothing, as with the source unplugged
-  void set_deaf(bool deaf) { deaf_ = deaf; }          // takes commands and does nothing
+  void stop_streaming() override { continuous_ = false; }
 
-  bool streaming() const { return continuous_; }
+  bool streaming() const override { return continuous_; }
   bool binary() const { return binary_; }
   bool centimetres() const { return centimetres_; }
   bool buffering() const { return buffering_; }
+  int rate_code() const { return rate_; }
   std::uint32_t count() const { return count_; }
   const std::vector<std::string>& commands() const { return commands_; }  // all that were understood, in order
 
@@ -71,21 +74,23 @@ class LibertyEmulator {
   void answer(char command, int station, const std::vector<std::uint8_t>& body, const std::string& text);
   std::vector<std::uint8_t> cycle(char command);
   std::vector<std::uint8_t> record(int station, char command);
-  LibertyPose measured(int station);
+  SourcePose measured(int station);
+  Bytes framed(int station, char command, int error, const Bytes& body) const;
 
+  LibertyKind kind_;
   std::map<int, SensorState> sensors_;
-  std::function<LibertyPose(int, std::uint32_t)> motion_;
+  Motion motion_;
   std::string line_;
   std::vector<std::string> commands_;
-  struct Output {
-    std::vector<std::uint8_t> bytes;
-    bool cycle = false;
-  };
   std::deque<Output> output_;
-  std::uint32_t count_ = 0;
+  std::uint32_t count_ = 0, ticks_ = 0;
   bool continuous_ = false, binary_ = false, centimetres_ = false, buffering_ = true, echo_ = false;
-  bool frozen_ = false, deaf_ = false;
+  bool on_serial_ = false;
   int rate_ = 4;
 };
+
+// The 8 bytes in front of everything that it says in binary mode.
+Bytes liberty_frame(int station, std::uint8_t command, std::uint8_t error, const Bytes& body,
+                    const std::string& tag = "LY");
 
 }  // namespace posed::test

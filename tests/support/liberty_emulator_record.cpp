@@ -1,9 +1,6 @@
 // The records of LibertyEmulator: what one measurement cycle says, in binary and in ASCII.
-#include <cmath>
-#include <numbers>
-
+#include "tests/support/emulator_pack.h"
 #include "tests/support/liberty_emulator.h"
-#include "tests/support/liberty_pack.h"
 
 namespace posed::test {
 namespace {
@@ -15,31 +12,6 @@ struct Values {
   std::uint32_t count, milliseconds;
   int distortion;
 };
-
-// The rotation of azimuth, elevation and roll (manual, appendix A), by half angles.
-void rotate(Values& v) {
-  const double to_half = std::numbers::pi / 360.0;
-  const double ca = std::cos(v.pose.azimuth * to_half), sa = std::sin(v.pose.azimuth * to_half);
-  const double ce = std::cos(v.pose.elevation * to_half), se = std::sin(v.pose.elevation * to_half);
-  const double cr = std::cos(v.pose.roll * to_half), sr = std::sin(v.pose.roll * to_half);
-  v.q[0] = ca * ce * cr + sa * se * sr;
-  v.q[1] = ca * ce * sr - sa * se * cr;
-  v.q[2] = ca * se * cr + sa * ce * sr;
-  v.q[3] = sa * ce * cr - ca * se * sr;
-  const double a = v.pose.azimuth * 2 * to_half, e = v.pose.elevation * 2 * to_half, r = v.pose.roll * 2 * to_half;
-  const double CA = std::cos(a), SA = std::sin(a), CE = std::cos(e), SE = std::sin(e), CR = std::cos(r),
-               SR = std::sin(r);
-  const double rows[9] = {CA * CE,
-                          CA * SE * SR - SA * CR,
-                          CA * SE * CR + SA * SR,
-                          SA * CE,
-                          CA * CR + SA * SE * SR,
-                          SA * SE * CR - CA * SR,
-                          -SE,
-                          CE * SR,
-                          CE * CR};
-  for (int i = 0; i < 9; ++i) v.m[i] = rows[i];
-}
 
 void put_item(Bytes& to, int item, const Values& v) {
   const LibertyPose& p = v.pose;
@@ -123,17 +95,9 @@ void put_item_text(Bytes& to, int item, const Values& v) {
 
 }  // namespace
 
-LibertyPose LibertyEmulator::measured(int station) {
+SourcePose LibertyEmulator::measured(int station) {
   const SensorState& sensor = sensors_[station];
-  LibertyPose pose = motion_ ? motion_(station, count_) : sensor.pose;
-  const auto& h = sensor.hemisphere;
-  const bool tracking = h[0] == 0 && h[1] == 0 && h[2] == 0;
-  // The field looks the same from both sides: beyond the boundary the position comes out mirrored.
-  if (!tracking && pose.x * h[0] + pose.y * h[1] + pose.z * h[2] < 0) {
-    pose.x = -pose.x;
-    pose.y = -pose.y;
-    pose.z = -pose.z;
-  }
+  SourcePose pose = mirrored(motion_ ? motion_(station, count_) : sensor.pose, sensor.hemisphere.data());
   if (centimetres_) {
     pose.x *= 2.54;
     pose.y *= 2.54;
@@ -146,14 +110,16 @@ std::vector<std::uint8_t> LibertyEmulator::record(int station, char command) {
   const SensorState& sensor = sensors_[station];
   Values v{};
   v.pose = measured(station);
-  rotate(v);
+  rotation_of(v.pose, v.q);
+  matrix_of(v.pose, v.m);
   v.count = count_;
-  v.milliseconds = static_cast<std::uint32_t>(std::uint64_t{count_} * 1000 / (rate_ == 4 ? 240 : 120));
+  v.milliseconds = static_cast<std::uint32_t>(std::uint64_t{count_} * 1000 /
+                                              static_cast<unsigned>(rate_ == 4 ? kind_.rate_hz : kind_.rate_hz / 2));
   v.distortion = sensor.distortion;
   Bytes body;
   for (const int item : sensor.list) binary_ ? put_item(body, item, v) : put_item_text(body, item, v);
   if (binary_) {
-    return liberty_frame(station, static_cast<std::uint8_t>(command), static_cast<std::uint8_t>(sensor.letter), body);
+    return framed(station, command, sensor.letter, body);
   }
   // Data records have no command letter: two digits of the station, the error, a blank.
   Bytes line;

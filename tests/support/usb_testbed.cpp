@@ -4,13 +4,12 @@
 
 #include <atomic>
 #include <cerrno>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <mutex>
 #include <sstream>
-#include <thread>
+#include <utility>
+#include <vector>
 
 #include "tests/support/usb_usbfs.h"
 
@@ -32,7 +31,9 @@ std::string descriptors(const UsbTestbedOptions& o) {
   std::istringstream words(o.endpoints);
   int count = 0;
   for (std::string word; words >> word; ++count) {
-    const std::vector<int> one{7, 5, std::stoi(word, nullptr, 16), 2, o.packet & 0xff, o.packet >> 8, 0};
+    const bool interrupt = word.ends_with('i');
+    const int type = interrupt ? 3 : 2, interval = interrupt ? 5 : 0;
+    const std::vector<int> one{7, 5, std::stoi(word, nullptr, 16), type, o.packet & 0xff, o.packet >> 8, interval};
     endpoints.insert(endpoints.end(), one.begin(), one.end());
   }
   const int usb = o.packet > 64 ? 2 : 1, total = 18 + 7 * count;
@@ -46,24 +47,17 @@ std::string descriptors(const UsbTestbedOptions& o) {
 
 }  // namespace
 
-class UsbTestbed::Impl {
+class UsbTestbed::Kernel {
  public:
-  explicit Impl(UsbTestbedOptions o) : options(std::move(o)), device(options.stations), usbfs(options.packet) {
-    usbfs.on_write([this](std::uint8_t endpoint, const std::vector<std::uint8_t>& bytes) {
-      if (endpoint != options.out) return;
-      const std::lock_guard lock(mutex);
-      device.write(bytes);
-    });
+  Kernel(int packet, Usbfs::Written written) : usbfs(packet) {
+    usbfs.on_write(std::move(written));
     testbed = umockdev_testbed_new();
     handler = umockdev_ioctl_base_new();
     g_signal_connect(handler, "handle-ioctl", G_CALLBACK(on_ioctl), &usbfs);
     g_signal_connect(handler, "client-vanished", G_CALLBACK(on_vanished), &usbfs);
-    ticker = std::thread([this] { run(); });
   }
 
-  ~Impl() {
-    stopping = true;
-    ticker.join();
+  ~Kernel() {
     if (!node.empty()) umockdev_testbed_detach_ioctl(testbed, node.c_str(), nullptr);
     g_object_unref(handler);
     g_object_unref(testbed);
@@ -77,45 +71,13 @@ class UsbTestbed::Impl {
     static_cast<Usbfs*>(usbfs)->vanish(client);
   }
 
-  void run() {
-    using namespace std::chrono;
-    const auto begun = steady_clock::now();
-    const auto period = nanoseconds(1'000'000'000 / options.rate_hz);
-    for (long n = 1; !stopping; ++n) {
-      // Small steps: answers must not wait for the next cycle.
-      while (steady_clock::now() < begun + n * period && !stopping) {
-        std::this_thread::sleep_until(std::min(begun + n * period, steady_clock::now() + milliseconds(1)));
-        deliver();
-      }
-      {
-        const std::lock_guard lock(mutex);
-        device.tick();
-      }
-      deliver();
-    }
-  }
-
-  void deliver() {
-    // What nobody reads stays in the device, which has its own rules for what it then keeps.
-    if (usbfs.unread(options.in) > 0) return;
-    std::deque<std::vector<std::uint8_t>> output;
-    {
-      const std::lock_guard lock(mutex);
-      output = device.take();
-    }
-    for (const auto& bytes : output) usbfs.send(options.in, bytes);
-  }
-
-  UsbTestbedOptions options;
-  std::mutex mutex;  // of device
-  LibertyEmulator device;
   Usbfs usbfs;
   UMockdevTestbed* testbed = nullptr;
   UMockdevIoctlBase* handler = nullptr;
   std::string node;
   int address = 0;
-  std::atomic<bool> plugged{false}, stopping{false};
-  std::thread ticker;
+  std::atomic<bool> plugged{false};
+  std::atomic<int> empty_writes{0};
 };
 
 std::unique_ptr<UsbTestbed> UsbTestbed::make(UsbTestbedOptions options, std::string& reason) {
@@ -124,14 +86,34 @@ std::unique_ptr<UsbTestbed> UsbTestbed::make(UsbTestbedOptions options, std::str
     reason = "it must run under umockdev-wrapper";
     return nullptr;
   }
-  return std::unique_ptr<UsbTestbed>(new UsbTestbed(std::make_unique<Impl>(std::move(options))));
+  auto device = options.make_device ? options.make_device() : std::make_unique<LibertyEmulator>(options.stations);
+  return std::unique_ptr<UsbTestbed>(new UsbTestbed(std::move(options), std::move(device)));
 }
 
-UsbTestbed::UsbTestbed(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
-UsbTestbed::~UsbTestbed() = default;
+UsbTestbed::UsbTestbed(UsbTestbedOptions options, std::unique_ptr<TrackerEmulator> device)
+    : TrackerTestbed(std::move(device)), options_(std::move(options)) {
+  const auto written = [this](std::uint8_t endpoint, const std::vector<std::uint8_t>& bytes) {
+    if (bytes.empty()) ++kernel_->empty_writes;
+    if (endpoint == options_.out) with_tracker([&](TrackerEmulator& heard) { heard.write(bytes); });
+  };
+  kernel_ = std::make_unique<Kernel>(options_.packet, written);
+  begin();
+}
+
+UsbTestbed::~UsbTestbed() {
+  end();
+}
+
+bool UsbTestbed::ready() {
+  return kernel_->usbfs.unread(options_.in) == 0 && kernel_->usbfs.unread(options_.stream) == 0;
+}
+
+void UsbTestbed::carry(const TrackerEmulator::Output& output) {
+  kernel_->usbfs.send(output.cycle && options_.stream ? options_.stream : options_.in, output.bytes);
+}
 
 void UsbTestbed::plug() {
-  Impl& i = *impl_;
+  Kernel& i = *kernel_;
   ++i.address;
   char number[12];
   std::snprintf(number, sizeof number, "%03d", i.address);
@@ -147,7 +129,7 @@ void UsbTestbed::plug() {
   text << "P: /devices/usb1\nE: SUBSYSTEM=usb\nE: DRIVER=usb\nE: BUSNUM=001\nE: DEVNUM=" << number
        << "\nE: DEVNAME=" << i.node
        << "\nE: DEVTYPE=usb_device\nA: bConfigurationValue=1\\n\nA: busnum=1\\n\nA: devnum=" << i.address
-       << "\\n\nA: speed=" << (i.options.packet > 64 ? 480 : 12) << "\\n\nH: descriptors=" << descriptors(i.options)
+       << "\\n\nA: speed=" << (options_.packet > 64 ? 480 : 12) << "\\n\nH: descriptors=" << descriptors(options_)
        << "\n";
   GError* error = nullptr;
   if (!umockdev_testbed_add_from_string(i.testbed, text.str().c_str(), &error)) {
@@ -158,7 +140,7 @@ void UsbTestbed::plug() {
 }
 
 void UsbTestbed::unplug(bool as_error) {
-  Impl& i = *impl_;
+  Kernel& i = *kernel_;
   i.plugged = false;
   i.usbfs.pull_out(as_error ? EPROTO : ESHUTDOWN);
   umockdev_testbed_uevent(i.testbed, "/sys/devices/usb1", "remove");
@@ -166,28 +148,29 @@ void UsbTestbed::unplug(bool as_error) {
 }
 
 bool UsbTestbed::plugged() const {
-  return impl_->plugged;
-}
-
-void UsbTestbed::with_device(const std::function<void(LibertyEmulator&)>& act) {
-  const std::lock_guard lock(impl_->mutex);
-  act(impl_->device);
+  return kernel_->plugged;
 }
 
 void UsbTestbed::fail_claims(int error_number, int how_often) {
-  impl_->usbfs.fail_claims(error_number, how_often);
+  kernel_->usbfs.fail_claims(error_number, how_often);
 }
 void UsbTestbed::fail_next_read(int error_number) {
-  impl_->usbfs.fail_next_read(impl_->options.in, error_number);
+  kernel_->usbfs.fail_next_read(options_.in, error_number);
 }
 void UsbTestbed::inject(std::string bytes) {
-  impl_->usbfs.send(impl_->options.in, {bytes.begin(), bytes.end()});
+  kernel_->usbfs.send(options_.in, {bytes.begin(), bytes.end()});
+}
+void UsbTestbed::fail_next_stream_read(int error_number) {
+  kernel_->usbfs.fail_next_read(options_.stream, error_number);
+}
+int UsbTestbed::empty_writes() const {
+  return kernel_->empty_writes;
 }
 int UsbTestbed::claims() const {
-  return impl_->usbfs.claims();
+  return kernel_->usbfs.claims();
 }
 bool UsbTestbed::claimed() const {
-  return impl_->usbfs.claimed();
+  return kernel_->usbfs.claimed();
 }
 
 }  // namespace posed::test

@@ -1,4 +1,4 @@
-// A USB bus that is not there, with one emulated LIBERTY on it: unmodified libusb and an unmodified driver run against
+// A USB bus that is not there, with one emulated tracker on it: unmodified libusb and an unmodified driver run against
 // it, in this process or a child, under umockdev-wrapper. It plays the kernel's usbfs; see usb_usbfs.h for what that
 // leaves out. Thread-safe. One at a time in a process.
 #pragma once
@@ -9,31 +9,37 @@
 #include <string>
 
 #include "tests/support/liberty_emulator.h"
+#include "tests/support/tracker_testbed.h"
 
 namespace posed::test {
 
 struct UsbTestbedOptions {
   std::uint16_t vendor = 0x0f44, product = 0xff20;
   // LIBERTY HS as its firmware describes it: bulk 82 04 06 88. It talks on 04 and 88.
-  std::string endpoints = "82 04 06 88";  // hexadecimal
+  std::string endpoints = "82 04 06 88";  // hexadecimal; with an i behind it: interrupt
   std::uint8_t out = 0x04, in = 0x88;
+  std::uint8_t stream = 0;  // where cycles go; 0: where answers do
   int packet = 512;
-  int rate_hz = 240;
-  int stations = 2;
+  int stations = 2;                                               // of the LIBERTY, where no other device is given
+  std::function<std::unique_ptr<TrackerEmulator>()> make_device;  // unset: a LIBERTY
 };
 
-class UsbTestbed {
+class UsbTestbed final : public TrackerTestbed {
  public:
   // Null, with the reason, where umockdev's preload library is not in this process.
   static std::unique_ptr<UsbTestbed> make(UsbTestbedOptions options, std::string& reason);
-  ~UsbTestbed();
+  ~UsbTestbed() override;
 
-  void plug();  // the device keeps what its settings were, as one that stays powered does
+  std::string place() const override { return "usb"; }
+  void plug() override;
+  void pull() override { unplug(); }
+  bool held() const override { return claimed(); }
+  void inject(std::string bytes) override;
   // `as_error`: flying transfers end with a protocol error instead of "no device", as on some host controllers.
   void unplug(bool as_error = false);
   bool plugged() const;
 
-  void with_device(const std::function<void(LibertyEmulator&)>& act);  // under the lock
+  void with_device(const std::function<void(LibertyEmulator&)>& act) { with<LibertyEmulator>(act); }
   template <class T>
   T ask(T (LibertyEmulator::*question)() const) {
     T answer{};
@@ -43,15 +49,20 @@ class UsbTestbed {
 
   // Faults. Each holds until it is set back to 0.
   void fail_claims(int error_number, int how_often = -1);  // of CLAIMINTERFACE; -1: always
-  void fail_next_read(int error_number);                   // one flying read ends so
-  void inject(std::string bytes);                          // into what is read next
+  void fail_next_read(int error_number);                   // one flying read of answers ends so
+  void fail_next_stream_read(int error_number);            // one of the stream's own endpoint
+  int empty_writes() const;                                // that end what fills its packets
   int claims() const;                                      // granted so far
   bool claimed() const;                                    // at present
 
  private:
-  class Impl;
-  explicit UsbTestbed(std::unique_ptr<Impl> impl);
-  std::unique_ptr<Impl> impl_;
+  class Kernel;
+  UsbTestbed(UsbTestbedOptions options, std::unique_ptr<TrackerEmulator> device);
+  void carry(const TrackerEmulator::Output& output) override;
+  bool ready() override;
+
+  UsbTestbedOptions options_;
+  std::unique_ptr<Kernel> kernel_;
 };
 
 }  // namespace posed::test

@@ -1,6 +1,6 @@
 // The part of the kernel's usbfs that libusb talks to, played for umockdev: the ioctls of one device node.
-// It leaves out: permissions, control transfers (all stall), isochronous and interrupt endpoints, suspension.
-// Source: linux/usbdevice_fs.h; umockdev's documentation. Thread-safe.
+// It leaves out: permissions, control transfers (all stall), isochronous endpoints, the pace of interrupt endpoints,
+// suspension. Source: linux/usbdevice_fs.h; umockdev's documentation. Thread-safe.
 #pragma once
 
 #include <umockdev.h>

@@ -99,13 +99,5 @@ TEST(FrameAssembler, AnotherCountIsAnotherInstant) {
   EXPECT_EQ(c.cycle(4, {1, 2, 3}), "123@900");
 }
 
-TEST(FrameAssembler, AResetDropsTheHalfFrame) {
-  Cycles c(true);
-  c.assembler.expect_up_to(2);
-  c.cycle(1, {1});
-  c.assembler.reset();
-  EXPECT_EQ(c.cycle(1, {1, 2}), "12@300");
-}
-
 }  // namespace
 }  // namespace posed::tracker

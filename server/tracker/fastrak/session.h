@@ -1,0 +1,39 @@
+// What a FASTRAK is told, on USB or at a serial port. Its commands are single letters, and c is not C.
+// Source: FASTRAK manual OPM00PI002 Rev G, commands; their order as the public drivers (VRPN) have it.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "server/tracker/fastrak/decoder.h"
+#include "server/tracker/session.h"
+
+namespace posed::tracker {
+
+struct FastrakOptions {
+  std::string id = "fastrak";
+  unsigned baud = 0;               // 0: on USB
+  std::optional<Vec3> hemisphere;  // as LibertyOptions has it
+};
+
+class FastrakSession final : public Session {
+ public:
+  explicit FastrakSession(FastrakOptions options);
+
+  Decoder& decoder() override { return decoder_; }
+  bool set_up(Conversation& with) override;
+  void hear(const Reply& reply, Conversation& with) override;
+  void leave(Conversation& with) override;
+
+ private:
+  bool configure(int station, Conversation& with) const;
+
+  FastrakOptions options_;
+  FastrakDecoder decoder_;
+  std::optional<unsigned> stations_;  // bit 0 is station 1: those that are switched on
+};
+
+// The answer to l1, as "1100": a digit a station. Nothing where it is something else.
+std::optional<unsigned> fastrak_stations(const Reply& reply);
+
+}  // namespace posed::tracker

@@ -1,0 +1,94 @@
+#include "server/tracker/liberty/session.h"
+
+#include <bit>
+#include <cstdio>
+#include <utility>
+
+#include "server/tracker/conversation.h"
+#include "server/tracker/liberty/header.h"
+
+namespace posed::tracker {
+namespace {
+
+// A serial line has no byte to spare: without the time stamp, which the frame count tells better.
+const std::vector<int> kListOnUsb{8, 9, 11, 3, 7}, kListOnSerial{9, 11, 3, 7};
+constexpr int kSerialRecord = 44, kBitsPerByte = 10;
+
+LibertyDecoder make_decoder(const LibertyOptions& options, int rate_hz) {
+  LibertyFormat format;
+  format.device = options.id;
+  format.tag = options.family.tag;
+  format.stations = options.family.stations;
+  format.items = options.baud > 0 ? kListOnSerial : kListOnUsb;
+  format.metres_per_unit = kMetresPerCentimetre;  // U1
+  format.rate_hz = rate_hz;
+  return std::move(*LibertyDecoder::make(std::move(format)));
+}
+
+std::string hemisphere_command(const Vec3& zenith) {
+  const Vec3 v = world_from_source(zenith);  // a half turn is its own inverse
+  char text[80];
+  std::snprintf(text, sizeof text, "H*,%.4f,%.4f,%.4f\r", v.x, v.y, v.z);
+  return text;
+}
+
+}  // namespace
+
+LibertySession::LibertySession(LibertyOptions options)
+    : options_(std::move(options)), decoder_(make_decoder(options_, options_.family.rate_hz)) {}
+
+bool LibertySession::set_up(Conversation& with) {
+  // P takes no CR. From the second try on a CR ends what may stand half typed before it.
+  if (!with.make_quiet({"p", "\rp", "\rp"})) return false;
+  decoder_ = make_decoder(options_, options_.family.rate_hz);
+  // These are silent where they succeed. Units and rate are set since the device may have kept others; buffering in the
+  // device is switched off so that a late read gets the newest frame instead of an old one.
+  if (!with.write("F1\r") || !with.write("U1\r")) return false;
+  if (!serial() && !with.write("@B0\r")) return false;
+  stations_.reset();
+  if (!with.ask("\x15"
+                "0\r",
+                [this] { return stations_.has_value(); })) {
+    with.trouble(no_answer(options_.family.name, options_.baud));
+    return false;
+  }
+  const int rate_hz = choose_rate(std::popcount(*stations_), with);
+  if (options_.family.half_rate_hz && !with.write(rate_hz == options_.family.rate_hz ? "R4\r" : "R3\r")) return false;
+  if (options_.hemisphere && !with.write(hemisphere_command(*options_.hemisphere))) return false;
+  if (!with.write(serial() ? "O*,9,11,3,7\r" : "O*,8,9,11,3,7\r")) return false;
+  decoder_ = make_decoder(options_, rate_hz);
+  with.begin(std::bit_width(*stations_));
+  with.nominal_rate(rate_hz);
+  with.trouble(*stations_ == 0 ? "no sensor is plugged in" : "no data for 2 s: is the source plugged in?");
+  return with.write("C\r");
+}
+
+// What a serial line carries is less than what the device measures.
+int LibertySession::choose_rate(int sensors, Conversation& with) const {
+  const LibertyFamily& family = options_.family;
+  const int most = serial() ? static_cast<int>(options_.baud) / kBitsPerByte / kSerialRecord : 1'000'000;
+  if (sensors * family.rate_hz <= most) return family.rate_hz;
+  const int slower = family.half_rate_hz ? family.half_rate_hz : family.rate_hz;
+  if (sensors * slower > most) {
+    with.complain(std::to_string(options_.baud) + " baud do not carry " + std::to_string(sensors) + " sensors at " +
+                  std::to_string(slower) + " Hz, so that frames will be missing: use USB, or fewer sensors");
+  }
+  return slower;
+}
+
+void LibertySession::hear(const Reply& reply, Conversation& with) {
+  if (reply.error != 0) {
+    with.complain("the tracker says: " + std::string(liberty_error_text(static_cast<std::uint8_t>(reply.error))) +
+                  " (error " + std::to_string(reply.error) + ")");
+  } else if (reply.command == kCommandActiveStations && reply.body.size() == 4) {
+    // One half lists the detected, the other the active ones. The sources differ on which comes first; both must be
+    // set.
+    stations_ = (reply.body[0] | reply.body[1] << 8) & (reply.body[2] | reply.body[3] << 8);
+  }
+}
+
+void LibertySession::leave(Conversation& with) {
+  with.write("p");
+}
+
+}  // namespace posed::tracker

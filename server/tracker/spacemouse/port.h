@@ -1,0 +1,36 @@
+// A SpaceMouse through hidraw, opened for reading alone and beside all others: its LED, and programs that also read it,
+// stay as they are.
+// Source: the kernel's hidraw documentation (a read is one report); HID usage tables (multi-axis controller); product
+// ids as spacenavd and PySpaceMouse have them.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "server/tracker/port.h"
+#include "server/tracker/time_source.h"
+
+namespace posed::tracker {
+
+struct HidrawPaths {
+  std::string nodes = "/dev";                      // hidraw0 ...
+  std::string descriptions = "/sys/class/hidraw";  // hidraw0/device/uevent ...
+};
+
+class SpacemousePort final : public Port {
+ public:
+  explicit SpacemousePort(TimeSource now, HidrawPaths paths = {});
+  ~SpacemousePort() override;
+
+  Opened open(const std::function<bool()>& stopping) override;
+  bool rest(std::chrono::milliseconds at_most) override;
+  void interrupt() override;
+
+ private:
+  struct Loop;
+  TimeSource now_;
+  HidrawPaths paths_;
+  std::unique_ptr<Loop> loop_;
+};
+
+}  // namespace posed::tracker

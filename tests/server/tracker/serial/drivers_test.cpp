@@ -1,0 +1,131 @@
+// What only some trackers do, at a serial port.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "server/tracker/registry.h"
+#include "tests/support/fastrak_emulator.h"
+#include "tests/support/liberty_emulator.h"
+#include "tests/support/pty_testbed.h"
+#include "tests/support/watched_tracker.h"
+
+namespace posed::tracker {
+namespace {
+
+using test::FastrakEmulator;
+using test::LibertyEmulator;
+using test::PtyTestbed;
+
+class Watched : public test::WatchedTracker {
+ public:
+  Watched(const std::string& kind, const PtyTestbed& bed, const std::string& after = "")
+      : WatchedTracker([&](TimeSource now) {
+          return std::move(*make_tracker(kind + ":" + bed.place() + after, std::move(now)));
+        }) {}
+};
+
+struct Carried {
+  int sensors;
+  std::string baud;
+  int rate_code, rate_hz;
+  bool fits;
+};
+
+TEST(LibertyOnSerial, TheRateIsWhatTheLineCarries) {
+  for (const Carried& c : {Carried{1, "@115200", 4, 240, true},
+                           {2, "", 3, 120, true},
+                           {3, "", 3, 120, false},
+                           {1, "@57600", 3, 120, true},
+                           {1, "@38400", 3, 120, false}}) {
+    PtyTestbed bed(std::make_unique<LibertyEmulator>(c.sensors));
+    bed.plug();
+    Watched run("liberty", bed, c.baud);
+    ASSERT_TRUE(run.wait_for_frames(5)) << run.status().message;
+    EXPECT_EQ(run.status().rate_hz, c.rate_hz);
+    bed.with<LibertyEmulator>([&](LibertyEmulator& device) { EXPECT_EQ(device.rate_code(), c.rate_code); });
+    EXPECT_EQ(run.status().message.find("baud do not carry") == std::string::npos, c.fits) << run.status().message;
+    run.stop();
+    // The device's own time counts with the rate that was chosen.
+    const Sample sample = run.frames().back().samples[0];
+    EXPECT_EQ(sample.device_t_ns, Nanoseconds{sample.device_count} * 1'000'000'000 / c.rate_hz);
+  }
+}
+
+TEST(FastrakOnSerial, TheStylusButtonIsHeardAndStopsNothing) {
+  PtyTestbed bed(std::make_unique<FastrakEmulator>(2));
+  bed.plug();
+  Watched run("fastrak", bed);
+  ASSERT_TRUE(run.wait_for_frames(5)) << run.status().message;
+  for (const bool down : {true, false, true}) {
+    bed.with<FastrakEmulator>([&](FastrakEmulator& device) { device.press_button(down); });
+    ASSERT_TRUE(run.wait_for_frame([&](const Frame& frame) { return frame.samples[0].buttons == (down ? 1u : 0u); }));
+  }
+  EXPECT_TRUE(bed.streaming());
+}
+
+TEST(FastrakOnSerial, AComplaintIsTold) {
+  PtyTestbed bed(std::make_unique<FastrakEmulator>(1));
+  bed.plug();
+  Watched run("fastrak", bed);
+  ASSERT_TRUE(run.wait_for_frames(5)) << run.status().message;
+  bed.with_tracker([](test::TrackerEmulator& device) { device.write("k9\r"); });
+  ASSERT_TRUE(run.wait_for_message("does not know (error -99)"));
+  ASSERT_TRUE(run.wait_for_frames(5));
+  run.stop();
+  EXPECT_EQ(run.status().state, State::streaming);
+  EXPECT_EQ(run.status().bad_bytes, 0u);
+}
+
+TEST(FastrakOnSerial, ReceiversThatAreSwitchedOffAreLeftOff) {
+  PtyTestbed bed(std::make_unique<FastrakEmulator>(4));
+  bed.with_tracker([](test::TrackerEmulator& device) { device.write("l2,0\rl4,0\r"); });
+  bed.plug();
+  Watched run("fastrak", bed);
+  ASSERT_TRUE(run.wait_for_stations(2)) << run.status().message;
+  EXPECT_EQ(run.status().rate_hz, 60);
+  run.stop();
+  EXPECT_EQ(run.frames().back().samples[1].station, 3);
+}
+
+TEST(FastrakOnSerial, WithoutReceiversItSaysSo) {
+  PtyTestbed bed(std::make_unique<FastrakEmulator>(0));
+  bed.plug();
+  Watched run("fastrak", bed);
+  ASSERT_TRUE(run.wait_for_message("no receiver is switched on"));
+}
+
+// At least the pauses that it promises; more where the machine is busy.
+TEST(Driver, EachPauseIsLongerThanTheLast) {
+  using Steady = std::chrono::steady_clock;
+  PtyTestbed bed(std::make_unique<LibertyEmulator>(1));
+  bed.with_tracker([](test::TrackerEmulator& device) { device.set_frozen(true); });
+  bed.plug();
+  std::mutex mutex;
+  std::vector<std::pair<State, Steady::time_point>> states;
+  const auto tracker = std::move(*make_tracker("liberty:" + bed.place(), [] { return Nanoseconds{0}; }));
+  tracker->start({{}, [&](const Status& status) {
+                    const std::lock_guard lock(mutex);
+                    if (states.empty() || states.back().first != status.state) {
+                      states.emplace_back(status.state, Steady::now());
+                    }
+                  }});
+  // Searching, then starting and silent in turns.
+  constexpr std::size_t kWanted = 6;
+  for (int i = 0; i < 6000; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    const std::lock_guard lock(mutex);
+    if (states.size() >= kWanted) break;
+  }
+  tracker->stop();
+  ASSERT_GE(states.size(), kWanted);
+  EXPECT_EQ(states[2].first, State::silent);
+  EXPECT_EQ(states[4].first, State::silent);
+  EXPECT_GE(states[3].second - states[2].second, std::chrono::milliseconds(1000));
+  EXPECT_GE(states[5].second - states[4].second, std::chrono::milliseconds(2000));
+}
+
+}  // namespace
+}  // namespace posed::tracker

@@ -1,0 +1,78 @@
+// A FASTRAK or an ISOTRAK II in software, as the FASTRAK's manual describes it; the ISOTRAK II as VRPN's driver expects
+// it. Commands are case-sensitive, single letters act at once, stations take turns: one record a cycle. Source: FASTRAK
+// manual OPM00PI002 Rev G; VRPN's drivers for the ISOTRAK II's packing.
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tests/support/emulator_pack.h"
+#include "tests/support/tracker_emulator.h"
+
+namespace posed::test {
+
+class FastrakEmulator final : public TrackerEmulator {
+ public:
+  enum class Kind { fastrak, isotrak };
+
+  explicit FastrakEmulator(int stations = 2, Kind kind = Kind::fastrak);  // switched on and plugged in, from 1 on
+
+  using TrackerEmulator::write;
+  void write(std::span<const std::uint8_t> bytes) override;
+  int rate_hz() const override { return kind_ == Kind::fastrak ? 120 : 60; }
+  void tick() override;
+  std::deque<Output> drain() override;
+  Bytes take();  // the same, as bytes
+  bool streaming() const override { return continuous_; }
+  void power_cycle() override;
+  void left_streaming() override;
+
+  // A receiver that is unplugged is still switched on: its records carry the letter l.
+  void plug_sensor(int station) override { sensors_[station].detected = true; }
+  void unplug_sensor(int station) override { sensors_[station].detected = false; }
+  void set_pose(int station, SourcePose pose) override { sensors_[station].pose = pose; }
+  void set_motion(Motion motion) override { motion_ = std::move(motion); }
+  void set_error_letter(int station, char letter) override { sensors_[station].letter = letter; }
+  void stop_streaming() override { continuous_ = false; }
+  void press_button(bool down);  // of the stylus, on station 1
+
+  bool binary() const { return binary_; }
+  bool centimetres() const { return centimetres_; }
+  const std::vector<std::string>& commands() const { return commands_; }  // all that were understood, in order
+
+ private:
+  struct Sensor {
+    bool detected = false, active = false;
+    SourcePose pose;
+    char letter = ' ';
+    std::array<double, 3> hemisphere{1, 0, 0};
+    std::vector<int> list{2, 4, 1};
+  };
+  using Arguments = std::vector<std::string>;
+
+  bool at_once(char letter);
+  void execute(const std::string& line);
+  void set_list(const std::string& line, const Arguments& arguments);
+  void answer(int station, char letter, const std::string& text);
+  void complain(const std::string& line, int code);
+  int most() const { return kind_ == Kind::fastrak ? 4 : 2; }
+  Bytes record(int station);
+  Bytes packed(int station, const SourcePose& pose, char letter) const;
+  void put_item(Bytes& to, int item, const SourcePose& pose, bool button) const;
+  void put_numbers(Bytes& to, bool extended, const char* pattern, std::span<const double> numbers) const;
+
+  Kind kind_;
+  std::map<int, Sensor> sensors_;
+  Motion motion_;
+  std::string line_;
+  std::vector<std::string> commands_;
+  std::deque<Output> output_;
+  std::uint32_t count_ = 0;
+  int turn_ = 0;  // the station that measured last
+  bool continuous_ = false, binary_ = false, centimetres_ = false, suspended_ = false;
+  bool button_ = false, button_starts_ = true;
+};
+
+}  // namespace posed::test
