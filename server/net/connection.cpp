@@ -79,7 +79,7 @@ void Connection::notify(const SharedLine& line) {
   if (!closed_ && !parting_ && idle()) outbox_.send(line, outbox_.framing());
 }
 
-void Connection::subscribe(const Subscription& subscription, SharedLine present, std::uint64_t seq) {
+void Connection::subscribe(const Subscription& subscription, const StreamFrame& present, std::uint64_t seq) {
   if (closed_ || parting_) return;
   if (!small_buffer_) {
     // Bytes in the kernel can't be taken back: what waits there is the past.
@@ -89,7 +89,7 @@ void Connection::subscribe(const Subscription& subscription, SharedLine present,
     const int unsent = kUnsentBytes;
     ::setsockopt(socket_.native_handle(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &unsent, sizeof(unsent));
   }
-  outbox_.subscribe(subscription, std::move(present), seq, hub_.clock.now());
+  outbox_.subscribe(subscription, present, seq, hub_.clock.now());
   if (ended_) outbox_.waive_credit();
   hub_.subscriptions.add(this, subscription.stream, subscription.key);
 }
@@ -99,9 +99,12 @@ void Connection::unsubscribe(proto::Stream stream) {
   outbox_.unsubscribe(stream);
 }
 
-void Connection::publish(proto::Stream stream, std::uint64_t seq, const SharedLine& line, bool send) {
+void Connection::publish(proto::Stream stream, std::uint64_t seq, const StreamFrame& frame, Nanoseconds now,
+                         bool send) {
   if (closed_) return;
-  if (!outbox_.put(stream, seq, line, hub_.clock.now())) {
+  if (send && !write_armed_ && writer_.idle() && outbox_.pass(stream, seq, now))
+    return written(writer_.write_frame(socket_.native_handle(), frame, outbox_.framing()));
+  if (!outbox_.put(stream, seq, frame, now)) {
     overflow();
     return update();
   }
@@ -256,7 +259,6 @@ void Connection::close(const char* why) {
   log_debug("closed " + address_ + ": " + why);
   error_code ignored;
   socket_.close(ignored);
-  rate_timer_.reset();
   // Not here and now: it may be in the middle of a fan-out.
   asio::post(hub_.io, [self = shared_from_this()] { self->hub_.remove(*self); });
 }
@@ -275,7 +277,11 @@ void Connection::arm_read() {
 
 void Connection::pump() {
   if (closed_ || write_armed_) return;
-  switch (writer_.write(socket_.native_handle(), outbox_, hub_.clock.now())) {
+  written(writer_.write(socket_.native_handle(), outbox_, hub_.clock.now()));
+}
+
+void Connection::written(Writer::State state) {
+  switch (state) {
     case Writer::State::done:
       return;
     case Writer::State::blocked:
@@ -296,16 +302,15 @@ void Connection::arm_write() {
 void Connection::arm_rate() {
   if (closed_ || write_armed_) return;
   const auto due = outbox_.due();
-  if (!due || (rate_armed_ && *due >= rate_due_)) return;
-  if (!rate_timer_) rate_timer_.emplace(hub_.io);
-  rate_armed_ = true;
+  if (!due || (rate_due_ != 0 && rate_due_ <= *due)) return;
   rate_due_ = *due;
-  rate_timer_->expires_after(std::chrono::nanoseconds(std::max<Nanoseconds>(0, *due - hub_.clock.now())));
-  rate_timer_->async_wait([self = shared_from_this()](error_code error) {
-    if (error) return;  // set anew, or closed
-    self->rate_armed_ = false;
-    self->update();
-  });
+  hub_.wakes.at(*due, weak_from_this());
+}
+
+void Connection::wake(Nanoseconds due) {
+  if (due != rate_due_) return;  // another moment was chosen since
+  rate_due_ = 0;
+  update();
 }
 
 }  // namespace posed::net

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <boost/asio/ip/tcp.hpp>
-#include <boost/asio/steady_timer.hpp>
 #include <memory>
 #include <optional>
 #include <string>
@@ -28,11 +27,13 @@ class Connection final : public Link, public std::enable_shared_from_this<Connec
   // These only queue: call update() when all that is known was said.
   void reply(const SharedLine& line);
   void notify(const SharedLine& line);
-  void subscribe(const Subscription& subscription, SharedLine present, std::uint64_t seq);
+  void subscribe(const Subscription& subscription, const StreamFrame& present, std::uint64_t seq);
   void unsubscribe(proto::Stream stream);
-  // Puts a frame into the outbox; with `send` also on the wire, if it may go.
-  void publish(proto::Stream stream, std::uint64_t seq, const SharedLine& line, bool send);
+  // Puts a frame into the outbox; with `send` on the wire, if it may go.
+  void publish(proto::Stream stream, std::uint64_t seq, const StreamFrame& frame, Nanoseconds now, bool send);
   void flush();
+  // The moment that it waited for.
+  void wake(Nanoseconds due);
   // Sends what may go, reads what there is room for, closes if all is done.
   void update();
   void part_now();
@@ -68,6 +69,7 @@ class Connection final : public Link, public std::enable_shared_from_this<Connec
   void on_readable();
   void on_end();
   void pump();
+  void written(Writer::State state);
   void say_goodbye();
   void close_if_done();
   void arm_read();
@@ -83,14 +85,13 @@ class Connection final : public Link, public std::enable_shared_from_this<Connec
   std::unique_ptr<Face> face_;
   std::vector<std::unique_ptr<Face>> retired_;  // may still be on the stack
   std::optional<Parting> parting_;
-  std::optional<boost::asio::steady_timer> rate_timer_;
   Nanoseconds receive_t_ns_ = 0;
-  Nanoseconds rate_due_ = 0;    // what the rate timer waits for
+  Nanoseconds rate_due_ = 0;    // when the hub wakes us; 0: it does not
   Nanoseconds deadline_ = 0;    // 0: none
   std::size_t unanswered_ = 0;  // lines that were handed up
   std::size_t expected_reply_;  // bytes, of those that are owed
   bool opened_ = false, closed_ = false, ended_ = false;
-  bool read_armed_ = false, write_armed_ = false, rate_armed_ = false, small_buffer_ = false;
+  bool read_armed_ = false, write_armed_ = false, small_buffer_ = false;
   bool dirty_ = false;
 };
 

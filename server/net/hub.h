@@ -9,6 +9,7 @@
 #include "server/net/http_site.h"
 #include "server/net/server.h"
 #include "server/net/subscriptions.h"
+#include "server/net/wakes.h"
 
 namespace posed::net {
 
@@ -28,6 +29,7 @@ struct Hub {
   Subscriptions subscriptions;
   std::vector<char> scratch;      // every read goes here first: a connection that is silent has no buffer
   boost::asio::io_context io{1};  // before the connections, after all that they use when its handlers are destroyed
+  Wakes wakes{io, clock};
   std::unordered_map<ConnectionId, std::shared_ptr<Connection>> connections;
   ConnectionId next_id = 1;
   bool stopping = false;

@@ -112,7 +112,7 @@ struct Server::Impl {
   void take(Subscribe& c) {
     Connection* const connection = find(c.connection);
     if (!connection) return;
-    connection->subscribe(c.subscription, std::move(c.present), c.seq);
+    connection->subscribe(c.subscription, c.present ? StreamFrame(*c.present) : StreamFrame(), c.seq);
     update_later(*connection);
   }
   void take(Unsubscribe& c) {
@@ -122,8 +122,10 @@ struct Server::Impl {
     update_later(*connection);
   }
   void take(Publish& c) {
+    const StreamFrame frame(*c.line);
+    const Nanoseconds now = hub.clock.now();
     hub.subscriptions.for_each(c.stream, c.key, [&](Connection& connection) {
-      connection.publish(c.stream, c.seq, c.line, !backlog);
+      connection.publish(c.stream, c.seq, frame, now, !backlog);
       if (backlog) update_later(connection);
     });
   }

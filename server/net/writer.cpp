@@ -15,8 +15,12 @@ namespace {
 constexpr std::size_t kGather = 16;  // lines in one write
 constexpr std::string_view kNewline = "\n";
 
+bool would_block() {
+  return errno == EAGAIN || errno == EWOULDBLOCK || errno == ENOBUFS;
+}
+
 std::size_t framed_size(const Outgoing& out) {
-  const std::size_t size = out.bytes->size();
+  const std::size_t size = out.bytes.size();
   if (out.framing == Framing::line) return size + kNewline.size();
   return out.framing == Framing::text ? size + frame_header(Opcode::text, size).size : size;
 }
@@ -28,13 +32,27 @@ Writer::State Writer::write(int socket, Outbox& outbox, Nanoseconds now) {
     const long sent = send_once(socket);
     if (sent >= 0) {
       advance(static_cast<std::size_t>(sent));
-    } else if (errno == EAGAIN || errno == EWOULDBLOCK || errno == ENOBUFS) {
+    } else if (would_block()) {
       return State::blocked;
     } else if (errno != EINTR) {
       return State::broken;
     }
   }
   return State::done;
+}
+
+Writer::State Writer::write_frame(int socket, const StreamFrame& frame, Framing framing) {
+  const std::string_view bytes = frame.as(framing);
+  const long sent = ::send(socket, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+  if (sent < 0 && !would_block() && errno != EINTR) return State::broken;
+  if (sent == static_cast<long>(bytes.size())) {
+    add(tally_.bytes_out, bytes.size());
+    add(tally_.frames);
+    return State::done;
+  }
+  begun_.push_back({frame.wire(), bytes, Framing::raw, true});
+  advance(sent > 0 ? static_cast<std::size_t>(sent) : 0);
+  return State::blocked;
 }
 
 bool Writer::fill(Outbox& outbox, Nanoseconds now) {
@@ -61,10 +79,10 @@ long Writer::send_once(int socket) const {
   for (std::size_t i = 0; i < begun_.size(); ++i) {
     const Outgoing& out = begun_[i];
     if (out.framing == Framing::text) {
-      headers[i] = frame_header(Opcode::text, out.bytes->size());
+      headers[i] = frame_header(Opcode::text, out.bytes.size());
       append(headers[i].bytes.data(), headers[i].size);
     }
-    append(out.bytes->data(), out.bytes->size());
+    append(out.bytes.data(), out.bytes.size());
     if (out.framing == Framing::line) append(kNewline.data(), kNewline.size());
   }
   msghdr message{};

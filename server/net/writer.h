@@ -15,6 +15,8 @@ class Writer {
 
   // Until there is nothing more to send now, the socket takes no more, or it is broken. Raises no signal.
   State write(int socket, Outbox& outbox, Nanoseconds now);
+  // A frame that goes past the outbox. Call it only when idle.
+  State write_frame(int socket, const StreamFrame& frame, Framing framing);
   bool idle() const { return begun_.empty(); }
 
  private:
