@@ -12,6 +12,7 @@
 #include "server/net/face.h"
 #include "server/net/hub.h"
 #include "server/net/outbox.h"
+#include "server/net/wire.h"
 #include "server/net/writer.h"
 
 namespace posed::net {
@@ -20,7 +21,8 @@ class Connection final : public Link, public std::enable_shared_from_this<Connec
  public:
   using Socket = boost::asio::ip::tcp::socket;
 
-  Connection(Hub& hub, Socket socket, ConnectionId id, std::string address);
+  // `address` is the whole of it, as text; `remote` without its port.
+  Connection(Hub& hub, Socket socket, ConnectionId id, std::string address, boost::asio::ip::address remote);
   ~Connection();
 
   void start();
@@ -37,10 +39,12 @@ class Connection final : public Link, public std::enable_shared_from_this<Connec
   // Sends what may go, reads what there is room for, closes if all is done.
   void update();
   void part_now();
-  void check_deadline(Nanoseconds now);
+  // Now and then: deadlines, heartbeats, and whether the peer takes what it is owed.
+  void check(Nanoseconds now);
   void close(const char* why);
 
   ConnectionId id() const { return id_; }
+  const boost::asio::ip::address& remote() const { return remote_; }
   bool opened() const { return opened_; }
   // Marks it for an update. True the first time.
   bool mark_dirty() { return !std::exchange(dirty_, true); }
@@ -65,7 +69,12 @@ class Connection final : public Link, public std::enable_shared_from_this<Connec
   };
 
   std::unique_ptr<Face> make_face(Detected detected);
+  bool sniff();
+  bool plain_refused(Detected detected);
+  void refill(Nanoseconds now);
   void overflow();
+  void check_heartbeat(Nanoseconds now);
+  void check_reading(Nanoseconds now);
   void on_readable();
   void on_end();
   void pump();
@@ -75,22 +84,33 @@ class Connection final : public Link, public std::enable_shared_from_this<Connec
   void arm_read();
   void arm_write();
   void arm_rate();
+  void arm_allowance();
 
   Hub& hub_;
   Socket socket_;
   const ConnectionId id_;
   const std::string address_;
+  const boost::asio::ip::address remote_;
+  Wire wire_;
   Outbox outbox_;
   Writer writer_;
   std::unique_ptr<Face> face_;
   std::vector<std::unique_ptr<Face>> retired_;  // may still be on the stack
   std::optional<Parting> parting_;
   Nanoseconds receive_t_ns_ = 0;
-  Nanoseconds rate_due_ = 0;    // when the hub wakes us; 0: it does not
-  Nanoseconds deadline_ = 0;    // 0: none
-  std::size_t unanswered_ = 0;  // lines that were handed up
-  std::size_t expected_reply_;  // bytes, of those that are owed
+  Nanoseconds rate_due_ = 0;     // when the hub wakes us; 0: it does not
+  Nanoseconds deadline_ = 0;     // 0: none
+  Nanoseconds heard_ = 0;        // when bytes last came
+  Nanoseconds pinged_ = 0;       // when we last asked for some; 0: not since
+  Nanoseconds stuck_since_ = 0;  // when it last took bytes of what it is owed; 0: it is owed nothing
+  std::uint64_t stuck_at_ = 0;   // how many it had taken then
+  std::size_t unanswered_ = 0;   // lines that were handed up
+  std::size_t expected_reply_;   // bytes, of those that are owed
   bool opened_ = false, closed_ = false, ended_ = false;
+  bool sniffed_ = false;
+  double allowance_ = 0.0;    // lines that it may still send, where there is a limit
+  Nanoseconds refilled_ = 0;  // when that was so
+  Nanoseconds allowed_ = 0;   // when the hub wakes us to read on; 0: it does not
   bool read_armed_ = false, write_armed_ = false, small_buffer_ = false;
   bool dirty_ = false;
 };

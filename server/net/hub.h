@@ -2,6 +2,8 @@
 #pragma once
 
 #include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/address.hpp>
+#include <map>
 #include <memory>
 #include <unordered_map>
 #include <vector>
@@ -18,7 +20,7 @@ struct Hub {
       : options(std::move(options_)),
         handlers(std::move(handlers_)),
         clock(clock_),
-        site(HostPolicy(loopback, options.hosts, options.origins), options.viewer),
+        site(HostPolicy(loopback, options.hosts, options.origins), options.viewer, options.tokens),
         scratch(64 << 10) {}
 
   const Options options;
@@ -31,6 +33,7 @@ struct Hub {
   boost::asio::io_context io{1};  // before the connections, after all that they use when its handlers are destroyed
   Wakes wakes{io, clock};
   std::unordered_map<ConnectionId, std::shared_ptr<Connection>> connections;
+  std::map<boost::asio::ip::address, std::size_t> per_address;  // connections
   ConnectionId next_id = 1;
   bool stopping = false;
 

@@ -28,8 +28,8 @@ bool Outbox::Slot::loses(Nanoseconds now) {
   return true;
 }
 
-void Outbox::Slot::sent(std::uint64_t sent_seq, Nanoseconds now) {
-  if (subscription.credit > 0) unacked.push_back(sent_seq);
+void Outbox::Slot::sent(UnderWay frame, Nanoseconds now) {
+  if (subscription.credit > 0) unacked.push_back(frame);
   if (period > 0) next_due = after(now);
   lost_due = next_due + period;
 }
@@ -88,18 +88,21 @@ bool Outbox::put(proto::Stream stream, std::uint64_t seq, const StreamFrame& fra
   return true;
 }
 
-bool Outbox::pass(proto::Stream stream, std::uint64_t seq, Nanoseconds now) {
+bool Outbox::pass(proto::Stream stream, std::uint64_t seq, Nanoseconds t_ns, Nanoseconds now) {
   Slot* const s = slot(stream).get();
   if (!s || s->newest || s->lost > 0 || replies() > 0 || !s->subscription.thinned || !s->may_send(now)) return false;
-  s->sent(seq, now);
+  s->sent({seq, t_ns}, now);
   return true;
 }
 
-bool Outbox::ack(proto::Stream stream, std::uint64_t seq) {
+bool Outbox::ack(proto::Stream stream, std::uint64_t seq, Nanoseconds now) {
   auto& s = slot(stream);
   if (!s) return false;
   auto& unacked = s->unacked;
-  unacked.erase(unacked.begin(), std::upper_bound(unacked.begin(), unacked.end(), seq));
+  const auto end = std::find_if(unacked.begin(), unacked.end(), [&](const UnderWay& frame) { return frame.seq > seq; });
+  // The newest of them is what the peer sees; it may acknowledge several at once.
+  if (end != unacked.begin() && std::prev(end)->t_ns != 0) tally_.acked_age.add(now - std::prev(end)->t_ns);
+  unacked.erase(unacked.begin(), end);
   return true;
 }
 
@@ -132,7 +135,7 @@ std::optional<Outgoing> Outbox::next(Nanoseconds now) {
       turn_ = at;  // its frame follows
       return whole(std::move(told), framing_);
     }
-    s->sent(s->seq, now);
+    s->sent({s->seq, s->newest.t_ns()}, now);
     turn_ = at + 1;
     return outgoing(std::exchange(s->newest, {}));
   }

@@ -23,6 +23,7 @@ struct Outgoing {
   std::string_view bytes;
   Framing framing = Framing::raw;  // what is still to be put around them
   bool frame = false;              // of a stream
+  Nanoseconds t_ns = 0;            // of that frame
 };
 
 class Outbox {
@@ -46,9 +47,9 @@ class Outbox {
   // A new frame of a stream; nothing happens without a subscription. False if the cap is reached (not thinned).
   [[nodiscard]] bool put(proto::Stream stream, std::uint64_t seq, const StreamFrame& frame, Nanoseconds now);
   // Whether a new frame may go out at once, past this box. Then it is taken as sent.
-  [[nodiscard]] bool pass(proto::Stream stream, std::uint64_t seq, Nanoseconds now);
+  [[nodiscard]] bool pass(proto::Stream stream, std::uint64_t seq, Nanoseconds t_ns, Nanoseconds now);
   // The peer has seen all frames up to `seq`. False without a subscription.
-  bool ack(proto::Stream stream, std::uint64_t seq);
+  bool ack(proto::Stream stream, std::uint64_t seq, Nanoseconds now);
   // No ack can come any more.
   void waive_credit();
 
@@ -62,19 +63,23 @@ class Outbox {
   std::size_t reply_bytes() const { return reply_bytes_; }
 
  private:
+  struct UnderWay {
+    std::uint64_t seq;
+    Nanoseconds t_ns;
+  };
   struct Slot {
     Subscription subscription;
     Nanoseconds period = 0;  // 0: no cap
     Nanoseconds next_due = 0;
-    Nanoseconds lost_due = 0;            // a whole period after: until then a newer frame can still take its place
-    StreamFrame newest;                  // empty: sent
-    std::uint64_t seq = 0;               // of newest
-    std::uint64_t lost = 0;              // not yet told
-    std::vector<std::uint64_t> unacked;  // ascending; kept only with credit
+    Nanoseconds lost_due = 0;       // a whole period after: until then a newer frame can still take its place
+    StreamFrame newest;             // empty: sent
+    std::uint64_t seq = 0;          // of newest
+    std::uint64_t lost = 0;         // not yet told
+    std::vector<UnderWay> unacked;  // ascending; kept only with credit
 
     bool may_send(Nanoseconds now) const { return now >= next_due && has_credit(); }
     bool has_credit() const;
-    void sent(std::uint64_t seq, Nanoseconds now);
+    void sent(UnderWay frame, Nanoseconds now);
     bool loses(Nanoseconds now);  // that a frame is replaced costs the peer one that its rate would have brought
     Nanoseconds after(Nanoseconds now) const;
   };
@@ -83,7 +88,9 @@ class Outbox {
     const std::string_view view = *bytes;
     return {std::move(bytes), view, framing, false};
   }
-  Outgoing outgoing(const StreamFrame& frame) const { return {frame.wire(), frame.as(framing_), Framing::raw, true}; }
+  Outgoing outgoing(const StreamFrame& frame) const {
+    return {frame.wire(), frame.as(framing_), Framing::raw, true, frame.t_ns()};
+  }
   std::unique_ptr<Slot>& slot(proto::Stream stream) { return slots_[static_cast<std::size_t>(stream)]; }
   void queue(Outgoing out);
 

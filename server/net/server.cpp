@@ -45,6 +45,8 @@ struct Publish {
   std::uint32_t key;
   std::uint64_t seq;
   SharedLine line;
+  bool binary;
+  Nanoseconds t_ns;
 };
 struct SetPage {
   std::string path, content_type;
@@ -112,7 +114,8 @@ struct Server::Impl {
   void take(Subscribe& c) {
     Connection* const connection = find(c.connection);
     if (!connection) return;
-    connection->subscribe(c.subscription, c.present ? StreamFrame(*c.present) : StreamFrame(), c.seq);
+    connection->subscribe(c.subscription, c.present ? StreamFrame(*c.present, c.subscription.binary) : StreamFrame(),
+                          c.seq);
     update_later(*connection);
   }
   void take(Unsubscribe& c) {
@@ -122,7 +125,7 @@ struct Server::Impl {
     update_later(*connection);
   }
   void take(Publish& c) {
-    const StreamFrame frame(*c.line);
+    const StreamFrame frame(*c.line, c.binary, c.t_ns);
     const Nanoseconds now = hub.clock.now();
     hub.subscriptions.for_each(c.stream, c.key, [&](Connection& connection) {
       connection.publish(c.stream, c.seq, frame, now, !backlog);
@@ -137,7 +140,7 @@ struct Server::Impl {
     sweep_timer.async_wait([this](boost::system::error_code error) {
       if (error) return;
       const Nanoseconds now = hub.clock.now();
-      for (const auto& [id, connection] : hub.connections) connection->check_deadline(now);
+      for (const auto& [id, connection] : hub.connections) connection->check(now);
       sweep();
     });
   }
@@ -209,8 +212,9 @@ void Server::unsubscribe(ConnectionId connection, proto::Stream stream) {
   impl_->post(Unsubscribe{connection, stream});
 }
 
-void Server::publish(proto::Stream stream, std::uint32_t key, std::uint64_t seq, SharedLine line) {
-  impl_->post(Publish{stream, key, seq, std::move(line)});
+void Server::publish(proto::Stream stream, std::uint32_t key, std::uint64_t seq, SharedLine line, bool binary,
+                     Nanoseconds t_ns) {
+  impl_->post(Publish{stream, key, seq, std::move(line), binary, t_ns});
 }
 
 void Server::set_page(std::string path, std::string content_type, SharedLine body) {

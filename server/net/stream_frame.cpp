@@ -4,8 +4,8 @@
 
 namespace posed::net {
 
-StreamFrame::StreamFrame(std::string_view text) {
-  const FrameHeader header = frame_header(Opcode::text, text.size());
+StreamFrame::StreamFrame(std::string_view text, bool binary, Nanoseconds t_ns) : t_ns_(t_ns) {
+  const FrameHeader header = frame_header(binary ? Opcode::binary : Opcode::text, text.size());
   header_ = header.size;
   std::string wire;
   wire.reserve(header_ + text.size() + 1);

@@ -4,6 +4,7 @@
 
 #include <string_view>
 
+#include "common/time.h"
 #include "server/net/subscription.h"
 
 namespace posed::net {
@@ -13,16 +14,19 @@ enum class Framing { raw, line, text };  // as it is; ended by a newline; as a W
 class StreamFrame {
  public:
   StreamFrame() = default;
-  explicit StreamFrame(std::string_view text);
+  // `t_ns`: when what it tells of was so; 0: its age does not count.
+  explicit StreamFrame(std::string_view text, bool binary = false, Nanoseconds t_ns = 0);
 
   explicit operator bool() const { return wire_ != nullptr; }
   std::size_t size() const { return wire_->size() - header_ - 1; }  // of the text
   std::string_view as(Framing framing) const;
   const SharedLine& wire() const { return wire_; }
+  Nanoseconds t_ns() const { return t_ns_; }
 
  private:
   SharedLine wire_;
   std::size_t header_ = 0;
+  Nanoseconds t_ns_ = 0;
 };
 
 }  // namespace posed::net

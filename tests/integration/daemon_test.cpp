@@ -141,13 +141,20 @@ TEST(Daemon, WhatIsReservedIsRefusedNotAliased) {
       {"goal.set", R"({"at":"head","position":[0,0,1],"relative_to":{"object":"chair"}})"},
       {"binding.set", R"({"sensor":"simulated:1","to":{"camera":"main"}})"},
       {"edit.undo", "{}"},
-      {"stream.subscribe", R"({"stream":"pose","encoding":"cbor"})"},
   };
   for (const auto& [method, params] : reserved) {
     const auto reply = client.call(method, params);
     ASSERT_FALSE(reply) << method << params;
     EXPECT_EQ(reply.error().code, "not_available") << method << params << reply.error().message;
   }
+}
+
+TEST(Daemon, CborNeedsAWebSocket) {
+  const RunningDaemon daemon;
+  const auto reply = daemon.connect().call("stream.subscribe", R"({"stream":"pose","encoding":"cbor"})");
+  ASSERT_FALSE(reply);
+  EXPECT_EQ(reply.error().code, "encoding_needs_websocket");
+  EXPECT_EQ(reply.error().path, "/params/encoding");
 }
 
 TEST(Daemon, TheMethodIsSpringsUntilAnotherIsChosen) {

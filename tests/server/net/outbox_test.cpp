@@ -122,11 +122,11 @@ TEST_F(OutboxTest, CreditLimitsWhatIsUnderWay) {
   }
   EXPECT_EQ(got, "f1f2f3");
   EXPECT_FALSE(outbox.due()) << "time alone brings no credit";
-  EXPECT_TRUE(outbox.ack(Stream::pose, 1));
+  EXPECT_TRUE(outbox.ack(Stream::pose, 1, 0));
   EXPECT_EQ(drain(), lost(6) + " f10");
   put(11);
   EXPECT_EQ(drain(), "");
-  EXPECT_TRUE(outbox.ack(Stream::pose, 10));
+  EXPECT_TRUE(outbox.ack(Stream::pose, 10, 0));
   EXPECT_EQ(drain(), "f11");
   put(12);
   EXPECT_EQ(drain(), "f12");
@@ -139,7 +139,7 @@ TEST_F(OutboxTest, CreditLimitsWhatIsUnderWay) {
 TEST_F(OutboxTest, AnAckCoversAllBeforeIt) {
   follow(0.0, 3);
   for (int i = 1; i <= 3; ++i) put(i), drain();
-  EXPECT_TRUE(outbox.ack(Stream::pose, 3));
+  EXPECT_TRUE(outbox.ack(Stream::pose, 3, 0));
   for (int i = 4; i <= 6; ++i) {
     put(i);
     EXPECT_EQ(drain(), "f" + std::to_string(i));
@@ -147,14 +147,14 @@ TEST_F(OutboxTest, AnAckCoversAllBeforeIt) {
 }
 
 TEST_F(OutboxTest, OldAndForeignAcksDoNoHarm) {
-  EXPECT_FALSE(outbox.ack(Stream::pose, 1));
+  EXPECT_FALSE(outbox.ack(Stream::pose, 1, 0));
   follow(0.0, 1);
   put(5);
   EXPECT_EQ(drain(), "f5");
-  EXPECT_TRUE(outbox.ack(Stream::pose, 4));
+  EXPECT_TRUE(outbox.ack(Stream::pose, 4, 0));
   put(6);
   EXPECT_EQ(drain(), "");
-  EXPECT_TRUE(outbox.ack(Stream::pose, 1'000'000));
+  EXPECT_TRUE(outbox.ack(Stream::pose, 1'000'000, 0));
   EXPECT_EQ(drain(), "f6");
 }
 
@@ -294,20 +294,20 @@ TEST_F(OutboxTest, BytesOfTheirOwnAreOutsideTheCap) {
 }
 
 TEST_F(OutboxTest, ANewFramePassesOnlyWhatHoldsNothingBack) {
-  EXPECT_FALSE(outbox.pass(Stream::pose, 1, 0)) << "nobody has subscribed";
+  EXPECT_FALSE(outbox.pass(Stream::pose, 1, 0, 0)) << "nobody has subscribed";
   follow(10.0, 2);
-  EXPECT_TRUE(outbox.pass(Stream::pose, 1, 0));
-  EXPECT_FALSE(outbox.pass(Stream::pose, 2, 1)) << "the rate";
-  EXPECT_TRUE(outbox.pass(Stream::pose, 3, kSecond / 10));
-  EXPECT_FALSE(outbox.pass(Stream::pose, 4, kSecond)) << "1 and 3 are under way";
-  EXPECT_TRUE(outbox.ack(Stream::pose, 3));
+  EXPECT_TRUE(outbox.pass(Stream::pose, 1, 0, 0));
+  EXPECT_FALSE(outbox.pass(Stream::pose, 2, 0, 1)) << "the rate";
+  EXPECT_TRUE(outbox.pass(Stream::pose, 3, 0, kSecond / 10));
+  EXPECT_FALSE(outbox.pass(Stream::pose, 4, 0, kSecond)) << "1 and 3 are under way";
+  EXPECT_TRUE(outbox.ack(Stream::pose, 3, 0));
   ASSERT_TRUE(outbox.reply(line("r")));
-  EXPECT_FALSE(outbox.pass(Stream::pose, 5, kSecond)) << "a reply goes first";
+  EXPECT_FALSE(outbox.pass(Stream::pose, 5, 0, kSecond)) << "a reply goes first";
   EXPECT_EQ(drain(kSecond), "r");
   put(6, kSecond);
-  EXPECT_FALSE(outbox.pass(Stream::pose, 7, kSecond)) << "an older one waits, and its loss is to be told";
+  EXPECT_FALSE(outbox.pass(Stream::pose, 7, 0, kSecond)) << "an older one waits, and its loss is to be told";
   outbox.subscribe({Stream::scene, 0, 0.0, 0, false}, {}, 0, 0);
-  EXPECT_FALSE(outbox.pass(Stream::scene, 1, kSecond)) << "queued in order, always";
+  EXPECT_FALSE(outbox.pass(Stream::scene, 1, 0, kSecond)) << "queued in order, always";
 }
 
 TEST_F(OutboxTest, WhoAsksForTheSameRateIsDueAtTheSameTime) {
@@ -337,6 +337,38 @@ TEST_F(OutboxTest, EveryFaceSendsItsPartOfOneFrame) {
     EXPECT_EQ(out->bytes, shared.as(framing));
     EXPECT_EQ(out->owner, shared.wire()) << "no copy";
     EXPECT_EQ(out->framing, Framing::raw);
+  }
+}
+
+TEST_F(OutboxTest, TheAgeOfWhatIsAcknowledgedIsCounted) {
+  follow(0.0, 3);
+  for (int i = 1; i <= 3; ++i) {
+    EXPECT_TRUE(outbox.put(Stream::pose, static_cast<std::uint64_t>(i), StreamFrame("f", false, i * kSecond), 0));
+    drain();
+  }
+  EXPECT_TRUE(outbox.ack(Stream::pose, 2, 5 * kSecond));
+  const AgeCounts ages = tally.acked_age.read();
+  EXPECT_EQ(ages.total(), 1u) << "of the newest that the ack covers";
+  EXPECT_NEAR(ages.quantile_us(0.5), 3e6, 0.1 * 3e6);
+  put(4);  // without a time
+  drain();
+  EXPECT_TRUE(outbox.ack(Stream::pose, 4, 9 * kSecond));
+  EXPECT_EQ(tally.acked_age.read().total(), 1u);
+}
+
+TEST(Ages, QuantilesAreRightToATenth) {
+  AgeMeter meter;
+  EXPECT_EQ(meter.read().quantile_us(0.5), 0.0);
+  for (int i = 1; i <= 1000; ++i) meter.add(i * 1000);
+  const AgeCounts before = meter.read();
+  EXPECT_EQ(before.total(), 1000u);
+  for (const double p : {0.01, 0.5, 0.9, 0.99}) EXPECT_NEAR(before.quantile_us(p), 1000.0 * p, 100.0 * p + 1.0);
+  for (const Nanoseconds age : {Nanoseconds{-5}, Nanoseconds{0}, Nanoseconds{7}, INT64_MAX}) meter.add(age);
+  EXPECT_EQ(meter.read().since(before).total(), 4u) << "whatever the clock says";
+  for (Nanoseconds age = 8; age < Nanoseconds{1} << 40; age += 1 + age / 7) {
+    AgeMeter one;
+    one.add(age);
+    EXPECT_NEAR(one.read().quantile_us(0.5), 1e-3 * static_cast<double>(age), 0.07e-3 * static_cast<double>(age));
   }
 }
 
