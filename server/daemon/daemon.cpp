@@ -14,14 +14,18 @@ namespace {
 
 // Of strangers. On this machine whoever wants to be a nuisance needs no connection for it.
 constexpr std::size_t kConnectionsOfOneAddress = 200;
-constexpr double kLinesOfOnePeer = 2000.0;  // a second
+constexpr Nanoseconds kAdmission = 30'000'000'000;  // to say session.hello with a token
+constexpr double kLinesOfOnePeer = 2000.0;          // a second
 
 net::Options network_options(const Config& config) {
   net::Options options;
   options.host = config.host;
   options.port = config.port;
   options.viewer = config.viewer;
-  if (!config.tokens.empty()) options.tokens = std::make_shared<const net::Tokens>(net::Tokens::read(config.tokens));
+  if (!config.tokens.empty()) {
+    options.tokens = std::make_shared<const net::Tokens>(net::Tokens::read(config.tokens));
+    options.limits.admission = kAdmission;
+  }
   if (!config.tls_key.empty())
     options.tls = std::make_shared<const net::TlsContext>(config.tls_certificate, config.tls_key);
   if (config.beyond_loopback) {

@@ -33,6 +33,7 @@ struct Session {
   std::string user;
   proto::Software client;
   proto::Role role = proto::Role::none;
+  bool token_refused = false;  // and said in the log
 };
 
 struct TrackerState {

@@ -1,4 +1,6 @@
 // Lines, sessions, trackers and streams.
+#include <utility>
+
 #include "common/names.h"
 #include "server/daemon/requests.h"
 #include "server/daemon/sensor_message.h"
@@ -65,15 +67,19 @@ void Requests::on(const proto::SessionHello& hello, Responder responder) {
   if (p_.tokens) {
     holder = p_.tokens->find(hello.token);
     if (!holder) {
-      const auto peer = p_.sessions.find(connection_);
-      log_warning("a token was refused" + (peer == p_.sessions.end() ? "" : ", of " + peer->second.peer.address));
+      const auto session = p_.sessions.find(connection_);
+      if (session != p_.sessions.end() && !std::exchange(session->second.token_refused, true))
+        log_warning("a token of " + session->second.peer.address + " was refused");
       return responder.error({"unauthorized",
                               hello.token.empty() ? "this daemon asks for a token" : "nobody has this token",
                               "/params/token", "as in session.hello {\"token\":\"…\"}; posectl token makes one"});
     }
   }
   Session& session = p_.sessions[connection_];
-  if (holder) session.role = holder->role;
+  if (holder) {
+    session.role = holder->role;
+    p_.server.admit(connection_);
+  }
   session.user = hello.user.empty() && holder ? holder->name : hello.user;
   session.client = hello.client;
   proto::HelloResult result;

@@ -57,7 +57,7 @@ void Connection::start() {
        {std::pair{TCP_KEEPIDLE, 20}, std::pair{TCP_KEEPINTVL, 10}, std::pair{TCP_KEEPCNT, 4}}) {
     ::setsockopt(socket_.native_handle(), IPPROTO_TCP, option, &value, sizeof value);
   }
-  heard_ = hub_.clock.now();
+  since_ = heard_ = hub_.clock.now();
   face_ = std::make_unique<DetectFace>(*this, hub_.options.limits.http_request,
                                        [this](Detected detected) { return make_face(detected); });
   arm_read();
@@ -151,6 +151,7 @@ void Connection::hand_up(std::string_view text) {
 
 void Connection::open(bool websocket) {
   opened_ = true;
+  since_ = hub_.clock.now();
   add(hub_.tally.peers);
   outbox_.set_framing(websocket ? Framing::text : Framing::line);
   hub_.handlers.opened(id_, Peer{address_, websocket});

@@ -38,6 +38,7 @@ class Connection final : public Link, public std::enable_shared_from_this<Connec
   void wake(Nanoseconds due);
   // Sends what may go, reads what there is room for, closes if all is done.
   void update();
+  void admit() { admitted_ = true; }
   void part_now();
   // Now and then: deadlines, heartbeats, and whether the peer takes what it is owed.
   void check(Nanoseconds now);
@@ -100,6 +101,7 @@ class Connection final : public Link, public std::enable_shared_from_this<Connec
   Nanoseconds receive_t_ns_ = 0;
   Nanoseconds rate_due_ = 0;     // when the hub wakes us; 0: it does not
   Nanoseconds deadline_ = 0;     // 0: none
+  Nanoseconds since_ = 0;        // when it came, or began to speak the protocol
   Nanoseconds heard_ = 0;        // when bytes last came
   Nanoseconds pinged_ = 0;       // when we last asked for some; 0: not since
   Nanoseconds stuck_since_ = 0;  // when it last took bytes of what it is owed; 0: it is owed nothing
@@ -107,7 +109,7 @@ class Connection final : public Link, public std::enable_shared_from_this<Connec
   std::size_t unanswered_ = 0;   // lines that were handed up
   std::size_t expected_reply_;   // bytes, of those that are owed
   bool opened_ = false, closed_ = false, ended_ = false;
-  bool sniffed_ = false;
+  bool sniffed_ = false, admitted_ = false;
   double allowance_ = 0.0;    // lines that it may still send, where there is a limit
   Nanoseconds refilled_ = 0;  // when that was so
   Nanoseconds allowed_ = 0;   // when the hub wakes us to read on; 0: it does not

@@ -10,6 +10,10 @@ namespace posed::net {
 
 void Connection::check(Nanoseconds now) {
   if (deadline_ != 0 && now >= deadline_) return close("it took too long");
+  // Who fetches pages has deadlines of its own.
+  const Nanoseconds admission = hub_.options.limits.admission;
+  if (admission != 0 && !admitted_ && deadline_ == 0 && now - since_ >= admission)
+    return close("it did not show who it is");
   check_heartbeat(now);
   check_reading(now);
 }

@@ -48,12 +48,15 @@ struct Publish {
   bool binary;
   Nanoseconds t_ns;
 };
+struct Admit {
+  ConnectionId connection;
+};
 struct SetPage {
   std::string path, content_type;
   SharedLine body;
 };
 struct Stop {};
-using Command = std::variant<Reply, Notify, Subscribe, Unsubscribe, Publish, SetPage, Stop>;
+using Command = std::variant<Reply, Notify, Subscribe, Unsubscribe, Publish, Admit, SetPage, Stop>;
 
 void raise_descriptor_limit() {
   rlimit limit{};
@@ -131,6 +134,9 @@ struct Server::Impl {
       connection.publish(c.stream, c.seq, frame, now, !backlog);
       if (backlog) update_later(connection);
     });
+  }
+  void take(Admit& c) {
+    if (Connection* const connection = find(c.connection)) connection->admit();
   }
   void take(SetPage& c) { hub.site.set_page(std::move(c.path), std::move(c.content_type), std::move(c.body)); }
   void take(Stop&);
@@ -215,6 +221,10 @@ void Server::unsubscribe(ConnectionId connection, proto::Stream stream) {
 void Server::publish(proto::Stream stream, std::uint32_t key, std::uint64_t seq, SharedLine line, bool binary,
                      Nanoseconds t_ns) {
   impl_->post(Publish{stream, key, seq, std::move(line), binary, t_ns});
+}
+
+void Server::admit(ConnectionId connection) {
+  impl_->post(Admit{connection});
 }
 
 void Server::set_page(std::string path, std::string content_type, SharedLine body) {

@@ -29,6 +29,7 @@ struct Limits {
   int subscriber_send_buffer = 64 << 10;      // bytes; what the kernel holds for a subscriber is the past
   Nanoseconds http_request = 10'000'000'000;  // from the first byte of a request to the end of its header
   Nanoseconds http_reply = 60'000'000'000;    // to take one reply, or between two requests
+  Nanoseconds admission = 0;                  // in which a peer has to be admitted; 0: it need not be
   Nanoseconds heartbeat = 20'000'000'000;  // of silence, after which a WebSocket is asked for a pong; 3: it is closed
   Nanoseconds unread_reply = 30'000'000'000;  // in which a peer takes no byte of what it is owed
   Nanoseconds farewell = 2'000'000'000;       // to read the last words of a connection that we close
@@ -85,6 +86,8 @@ class Server {
   // `t_ns` is the time of what the frame tells, for the count of ages; 0: none.
   void publish(proto::Stream stream, std::uint32_t key, std::uint64_t seq, SharedLine line, bool binary = false,
                Nanoseconds t_ns = 0);
+  // The peer has shown who it is: it may stay.
+  void admit(ConnectionId connection);
   void set_page(std::string path, std::string content_type, SharedLine body);  // path as in "/metrics"
 
   Counters counters() const;

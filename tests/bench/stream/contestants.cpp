@@ -61,7 +61,9 @@ void serve_posed(double rate_hz, const std::function<void(std::uint16_t)>& tell_
   const int timer = tick_timer(rate_hz);
   for (std::uint64_t seq = 1;; ++seq) {
     wait_for_tick(timer);
-    made.publish(proto::Stream::pose, 0, seq, std::make_shared<const std::string>(pose_frame(seq, monotonic_now())));
+    const Nanoseconds t_ns = clock.now();
+    made.publish(proto::Stream::pose, 0, seq, std::make_shared<const std::string>(pose_frame(seq, monotonic_now())),
+                 false, t_ns);
   }
 }
 

@@ -321,6 +321,20 @@ TEST(Lines, OneAddressHasSoManyConnectionsAndGetsThemBack) {
   EXPECT_EQ(station.server.counters().refused, 3u);
 }
 
+TEST(Lines, WhoDoesNotShowWhoItIsIsClosed) {
+  Options options = options_on_a_free_port();
+  options.limits.admission = 500'000'000;
+  FakeStation station(std::move(options));
+  RawPeer known(station.server.port());
+  EXPECT_EQ(known.call(proto::SessionPing{}).id, 1);
+  station.server.admit(station.open_peers().begin()->first);
+  RawPeer silent(station.server.port()), stranger(station.server.port());
+  EXPECT_EQ(stranger.call(proto::SessionPing{}).id, 1);
+  EXPECT_TRUE(silent.at_end());
+  EXPECT_TRUE(stranger.at_end());
+  EXPECT_EQ(known.call(proto::SessionPing{}, 2).id, 2);
+}
+
 TEST(Lines, WhoSendsTooFastIsReadMoreSlowlyAndLosesNothing) {
   Options options = options_on_a_free_port();
   options.limits.lines_per_second = 200.0;
