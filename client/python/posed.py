@@ -21,6 +21,7 @@ import socket
 import ssl
 import time
 from collections import deque
+from contextlib import suppress
 from typing import Any, Dict, Iterator, Optional
 from urllib.parse import urlsplit
 
@@ -86,7 +87,7 @@ class Posed:
         self._token, self._user = token, user
         self._tls = tls or (ssl.create_default_context() if parts.scheme == "tls" else None)
         self._socket: Optional[socket.socket] = None
-        self._buffer = b""
+        self._buffer, self._searched = bytearray(), 0  # so far without a line's end
         self._next_id = 1
         self._subscriptions: Dict[str, JsonObject] = {}
         self._frames: Dict[str, "deque[JsonObject]"] = {}
@@ -154,15 +155,18 @@ class Posed:
                 if frame is not None:
                     yield frame
         finally:
-            if stream in self._subscriptions and self._socket:
-                self.unsubscribe(stream)
+            self._subscriptions.pop(stream, None)
+            if self._socket:
+                with suppress(Lost):
+                    self.unsubscribe(stream)
 
     # ---- the connection ----
 
     def close(self) -> None:
         if self._socket:
             self._socket.close()
-        self._socket, self._buffer = None, b""
+        self._socket, self._searched = None, 0
+        self._buffer.clear()
         self._frames.clear()
 
     def __enter__(self) -> "Posed":
@@ -235,7 +239,8 @@ class Posed:
 
     def _receive(self, until: Optional[float]) -> JsonObject:
         """The next message. TimeoutError when the time is over."""
-        while b"\n" not in self._buffer:
+        while (end := self._buffer.find(b"\n", self._searched)) < 0:
+            self._searched = len(self._buffer)
             if not self._socket:
                 raise Lost("the connection is closed")
             left = None if until is None else until - time.monotonic()
@@ -251,7 +256,9 @@ class Posed:
             if not got:
                 raise Lost("the daemon has closed the connection")
             self._buffer += got
-        line, self._buffer = self._buffer.split(b"\n", 1)
+        line = self._buffer[:end]
+        del self._buffer[: end + 1]
+        self._searched = 0
         return json.loads(line)
 
     def _keep(self, message: JsonObject) -> None:

@@ -42,6 +42,12 @@ class Calls(WithADaemon):
         self.assertIn(answer["status"], ("converged", "stalled"))
         self.assertEqual(self.station.call("session.status")["figures"], ["body"])
 
+    def test_a_reply_of_many_megabytes(self):
+        problem = {"goals": [{"at": "right_hand", "position": [0.4, -0.3, 1.2]}], "start": "rest"}
+        answer = self.station.solve.batch(figure={"template": "tempus"}, problems=[problem] * 2000)
+        self.assertEqual(len(answer["results"]), 2000)
+        self.assertIn("t_ns", self.station.session.status())
+
     def test_what_is_refused_says_where_and_what_cures_it(self):
         with self.assertRaises(Refused) as refused:
             self.station.goal.set(at="right_hnd", position=[0, 0, 1])
