@@ -38,6 +38,10 @@ std::string encode_scene_patch(std::uint64_t seq, std::uint64_t from_revision, s
 std::string encode_lost(Stream stream, std::uint64_t dropped);
 std::string encode_progress(const std::string& id, std::size_t done, std::size_t of);  // solve.progress
 
+// The same frame for who asked for CBOR. Numbers that are not whole are float32 (of the scene: double where they need
+// it).
+std::string encode_cbor(std::string_view frame, Stream stream);
+
 // ---- documents ----
 
 std::string encode_scene(const SceneDocument& scene, int indent = -1);
@@ -75,8 +79,15 @@ Result<Message> decode_message(std::string_view text);
 // JSON text set out for reading.
 std::string pretty(std::string_view text);
 
+std::string_view method_name(const Params& params);
+// Who may call it. What only looks is for viewers; what belongs to the station is for its operators; the rest is
+// editing.
+Role role_for(const Params& params);
+std::optional<Role> find_role(std::string_view name);
+
 std::string_view stream_name(Stream stream);
 std::string_view name_of(GoalState state);
 std::string_view name_of(SolveStatus status);
+std::string_view name_of(Role role);
 
 }  // namespace posed::proto

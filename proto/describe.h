@@ -212,7 +212,7 @@ void describe(V& v, SessionHello& m) {
   if (m.protocol != kProtocol) v.fail_at("protocol", "not_available", "only protocol 1 is spoken here", "use 1");
   v.optional("client", m.client);
   v.optional("user", m.user);
-  v.reserved("token");
+  v.optional("token", m.token);
   v.reserved("resume");
 }
 
@@ -389,7 +389,7 @@ void describe(V& v, StreamSubscribe& m) {
   v.optional("credit", m.credit);
   if (m.credit < 0 || m.credit > 1000)
     v.fail_at("credit", "out_of_range", "credit is a number of frames", "1 to 1000; 0 means none");
-  v.reserved("encoding", "\"json\"");
+  v.optional("encoding", m.encoding);
 }
 
 template <class V>

@@ -22,7 +22,7 @@ void describe(V& v, HelloResult& m) {
   v.required("daemon", m.daemon);
   v.required("session", m.session);
   v.required("boot", m.boot);
-  if constexpr (!V::kReads) v.constant("role", "editor");
+  v.required("role", m.role);
   v.required("features", m.features);
   if constexpr (!V::kReads) v.constant("axes", Json{{"up", "z"}, {"forward", "x"}, {"handed", "right"}});
   Clocks clocks{m.t_ns, m.utc_ns};
@@ -292,6 +292,10 @@ void describe(V& v, StatsData& m) {
   v.required("sample_to_send_us", m.sample_to_send_us);
   v.required("connections", m.connections);
   v.required("dropped", m.dropped);
+  v.required("frame_age_us", m.frame_age_us);
+  v.required("frame_age_p99_us", m.frame_age_p99_us);
+  v.required("acked_age_us", m.acked_age_us);
+  v.required("acked_age_p99_us", m.acked_age_p99_us);
 }
 
 }  // namespace posed::proto

@@ -60,6 +60,15 @@ struct EnumNames<Stream> {
   static constexpr std::array names{"pose", "tracker", "scene", "stats"};
 };
 
+template <>
+struct EnumNames<Role> {
+  static constexpr std::array names{"none", "viewer", "editor", "operator"};
+};
+template <>
+struct EnumNames<Encoding> {
+  static constexpr std::array names{"json", "cbor"};
+};
+
 template <class E>
 const char* word(E value) {
   return EnumNames<E>::names[static_cast<std::size_t>(value)];

@@ -28,10 +28,14 @@ struct Software {
   std::string name, version;
 };
 
+// What a peer may do; each may what those before it may.
+enum class Role { none, viewer, editor, operator_ };
+
 struct SessionHello {
   int protocol = kProtocol;
   Software client;
   std::string user;
+  std::string token = {};
 };
 struct SessionPing {};
 struct SessionStatus {};
@@ -175,12 +179,15 @@ struct TrackerList {};
 enum class Stream { pose, tracker, scene, stats };
 inline constexpr int kStreams = 4;
 
+enum class Encoding { json, cbor };
+
 struct StreamSubscribe {
   Stream stream = Stream::pose;
   std::vector<std::string> figures;  // pose; empty: all
   std::vector<std::string> fields;   // pose; empty: all
   double max_rate_hz = 0.0;          // 0: no cap
   int credit = 0;                    // 0: no credit wanted
+  Encoding encoding = Encoding::json;
 };
 struct StreamUnsubscribe {
   Stream stream = Stream::pose;
@@ -219,6 +226,7 @@ struct Line {
 struct HelloResult {
   Software daemon;
   std::string session, boot;
+  Role role = Role::operator_;
   std::vector<std::string> features;
   Nanoseconds t_ns = 0, utc_ns = 0;
 };
@@ -412,6 +420,9 @@ struct StatsData {
   double sample_to_send_us = 0.0;  // median of the last second, from the bytes' arrival to the encoded line
   int connections = 0;
   std::uint64_t dropped = 0;
+  // Of pose and tracker frames in the last second, from the sample's arrival until the kernel has taken the frame, and
+  // until a viewer with credit has acknowledged it. 0: there were none.
+  double frame_age_us = 0.0, frame_age_p99_us = 0.0, acked_age_us = 0.0, acked_age_p99_us = 0.0;
 };
 
 }  // namespace posed::proto

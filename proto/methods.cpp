@@ -78,7 +78,35 @@ constexpr const char* kReserved[] = {
     "tracker.grab", "tracker.release", "tracker.configure", "tracker.align", "tracker.reset",
 };
 
+bool ends_with_any(std::string_view name, std::initializer_list<std::string_view> endings) {
+  return std::any_of(endings.begin(), endings.end(), [&](std::string_view ending) { return name.ends_with(ending); });
+}
+
 }  // namespace
+
+std::string_view method_name(const Params& params) {
+  return method_of(params).name;
+}
+
+Role role_for(const Params& params) {
+  const std::string_view name = method_of(params).name;
+  // An ack is booked where it comes in, and says nothing.
+  if (name == "session.hello" || name == "session.ping" || name == "stream.ack") return Role::none;
+  if (name.starts_with("session.") || name.starts_with("stream.") || ends_with_any(name, {".get", ".list", ".history"}))
+    return Role::viewer;
+  return name.starts_with("tracker.") ? Role::operator_ : Role::editor;
+}
+
+std::optional<Role> find_role(std::string_view name) {
+  const auto& names = EnumNames<Role>::names;
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) return std::nullopt;
+  return static_cast<Role>(found - names.begin());
+}
+
+std::string_view name_of(Role role) {
+  return word(role);
+}
 
 const Method* find_method(std::string_view name) {
   const auto found = std::find_if(kMethods.begin(), kMethods.end(), [&](const Method& m) { return name == m.name; });

@@ -233,6 +233,10 @@ std::string encode_stats_frame(std::uint64_t seq, const StatsData& data) {
   append_field(out, "sample_to_send_us", data.sample_to_send_us);
   append_field(out, "connections", data.connections);
   append_field(out, "dropped", data.dropped);
+  append_field(out, "frame_age_us", data.frame_age_us);
+  append_field(out, "frame_age_p99_us", data.frame_age_p99_us);
+  append_field(out, "acked_age_us", data.acked_age_us);
+  append_field(out, "acked_age_p99_us", data.acked_age_p99_us);
   return out += "}}}";
 }
 

@@ -17,14 +17,19 @@ struct Session {
 };
 
 struct Watch {
+  enum class Form { automatic, lines, csv, table };
   proto::Stream stream = proto::Stream::pose;
   double rate_hz = 0.0;     // 0: no cap
   std::uint64_t count = 0;  // 0: for ever
   std::string figure;
+  Form form = Form::automatic;  // a table on a terminal, else lines
 };
 
 int run_status(const Session& session);
 int run_watch(const Session& session, const Watch& watch);
+
+// A line for the file of tokens on standard output; the token itself on standard error. Needs no daemon.
+int make_token(const std::string& role, const std::string& name);
 
 int list_goals(const Session& session);
 int set_goal(const Session& session, const proto::GoalSet& goal);

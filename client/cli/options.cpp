@@ -4,6 +4,8 @@
 #include <map>
 #include <memory>
 
+#include "client/cli/completion.h"
+
 namespace posed::cli {
 namespace {
 
@@ -16,13 +18,21 @@ void add_watch(CLI::App& app, Run& run) {
                                                            {"stats", proto::Stream::stats},
                                                            {"scene", proto::Stream::scene}};
   auto watch = std::make_shared<Watch>();
-  auto* command = app.add_subcommand("watch", "follow a stream, one line a frame");
+  auto* command = app.add_subcommand("watch", "follow a stream");
   command->add_option("stream", watch->stream, "pose, tracker, stats or scene")
       ->transform(CLI::CheckedTransformer(kNames, CLI::ignore_case).description(""))
       ->type_name("STREAM");
   command->add_option("--rate", watch->rate_hz, "frames a second at most")->check(CLI::PositiveNumber)->type_name("HZ");
   command->add_option("--count", watch->count, "stop after so many frames")->check(CLI::PositiveNumber)->type_name("N");
   command->add_option("--figure", watch->figure, "poses of this figure only")->type_name("ID");
+  const auto form = [&](const char* flag, Watch::Form value, const char* help) {
+    return command->add_flag_callback(
+        flag, [watch, value] { watch->form = value; }, help);
+  };
+  auto* csv = form("--csv", Watch::Form::csv, "rows for a spreadsheet: segments, sensors or statistics");
+  auto* table =
+      form("--table", Watch::Form::table, "a table that stands still (the default on a terminal)")->excludes(csv);
+  form("--lines", Watch::Form::lines, "a line a frame (the default elsewhere)")->excludes(csv)->excludes(table);
   command->callback([&run, watch] { run = [watch](const Session& s) { return run_watch(s, *watch); }; });
 }
 
@@ -140,6 +150,29 @@ void add_call(CLI::App& app, Run& run) {
       [&run, call] { run = [call](const Session& s) { return run_call(s, call->method, call->params); }; });
 }
 
+void add_alone(CLI::App& app, std::function<int()>& run) {
+  struct Token {
+    std::string role, name;
+  };
+  auto token = std::make_shared<Token>();
+  auto* make = app.add_subcommand("token", "make a token, and its line for posed --auth.tokens");
+  make->add_option("role", token->role, "viewer, editor or operator")
+      ->required()
+      ->check(CLI::IsMember({"viewer", "editor", "operator"}).description(""));
+  make->add_option("name", token->name, "whose it is")->required()->check([](const std::string& name) {
+    return name.find_first_of(" \t#") == std::string::npos ? "" : "a name is one word";
+  });
+  make->callback([&run, token] { run = [token] { return make_token(token->role, token->name); }; });
+
+  auto shell = std::make_shared<std::string>("bash");
+  auto* completion = app.add_subcommand("completion", "what your shell reads to complete these words");
+  completion->add_option("shell", *shell, "bash or zsh")->check(CLI::IsMember({"bash", "zsh"}).description(""));
+  completion->footer("As in: source <(posectl completion bash)");
+  completion->callback([&run, &app, shell] {
+    run = [script = completion_script(app, *shell)] { return std::fputs(script.c_str(), stdout), kDone; };
+  });
+}
+
 }  // namespace
 
 std::variant<Options, int> parse_options(int argc, const char* const* argv) {
@@ -152,7 +185,13 @@ std::variant<Options, int> parse_options(int argc, const char* const* argv) {
       ->envname("POSED_HOST")
       ->type_name("tcp://HOST:PORT")
       ->capture_default_str();
-  app.add_flag("--json", options.json, "results as JSON, one a line");
+  app.add_flag("--json", options.json, "results, and errors, as JSON, one a line");
+  app.add_option("--token", options.identity.token, "where posed asks for one; better in the environment")
+      ->envname("POSED_TOKEN")
+      ->type_name("TOKEN");
+  app.add_option("--authority", options.identity.authority, "for tls://: a file of the certificates to trust")
+      ->envname("POSED_AUTHORITY")
+      ->type_name("FILE");
   app.footer("Exit codes: 0 done, 1 the daemon refused, 2 wrong usage, 3 no daemon or the connection was lost.");
   app.add_subcommand("status", "how the daemon is")->callback([&options] { options.run = run_status; });
   add_watch(app, options.run);
@@ -162,6 +201,7 @@ std::variant<Options, int> parse_options(int argc, const char* const* argv) {
   add_tracker(app, options.run);
   add_scene(app, options.run);
   add_call(app, options.run);
+  add_alone(app, options.run_alone);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -12,7 +12,9 @@ namespace posed::cli {
 struct Options {
   std::string host;
   bool json = false;
+  client::Identity identity;
   std::function<int(const Session&)> run;
+  std::function<int()> run_alone;  // in its place: a command that needs no daemon
 };
 
 // The options, or the exit code where all is said already (help, or what is wrong).

@@ -3,6 +3,8 @@
 namespace posed::cli {
 namespace {
 
+bool errors_as_json = false;
+
 std::string because(const proto::GoalFrame::Because& cause) {
   const std::string whose = cause.figure.empty() ? "" : " of " + cause.figure;
   if (!cause.goal.empty()) return "held by " + cause.goal;
@@ -13,12 +15,17 @@ std::string because(const proto::GoalFrame::Because& cause) {
 
 }  // namespace
 
+void say_errors_as_json() {
+  errors_as_json = true;
+}
+
 int fail(const Error& error) {
   std::string text = "posectl: " + error.message;
   if (!error.path.empty()) text += " (at " + error.path + ')';
   if (!error.hint.empty()) text += "\nposectl: " + error.hint;
+  if (errors_as_json) text = proto::encode_error("null", error);
   std::fprintf(stderr, "%s\n", text.c_str());
-  if (error.code == "bad_address") return kUsage;
+  if (error.code == "bad_address" || error.code == "bad_usage") return kUsage;
   const bool no_daemon = error.code == "cannot_connect" || error.code == "connection_lost" || error.code == "timeout" ||
                          error.code == "bad_reply";
   return no_daemon ? kNoDaemon : kRefused;

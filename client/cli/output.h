@@ -10,6 +10,8 @@ namespace posed::cli {
 
 // Says the error on standard error, with its path and hint; the exit code for it.
 int fail(const Error& error);
+// From now on as JSON-RPC's error object, on a line.
+void say_errors_as_json();
 
 void print_line(std::string_view text);
 void print_goal(const proto::GoalFrame& goal);  // with what holds it

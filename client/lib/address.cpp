@@ -15,13 +15,14 @@ Result<Address> parse_address(std::string_view text) {
     return Error{"bad_address", '"' + std::string(text) + "\" " + message, "", "as in tcp://127.0.0.1:19870"};
   };
   std::string_view left = text;
+  Address address;
   if (const std::size_t scheme = left.find("://"); scheme != std::string_view::npos) {
-    if (left.substr(0, scheme) != "tcp") return wrong("does not begin with tcp://");
+    address.tls = left.starts_with("tls://");
+    if (!address.tls && !left.starts_with("tcp://")) return wrong("does not begin with tcp:// or tls://");
     left.remove_prefix(scheme + 3);
   }
   if (left.ends_with('/')) left.remove_suffix(1);
 
-  Address address;
   if (left.starts_with('[')) {
     const std::size_t end = left.find(']');
     if (end == std::string_view::npos) return wrong("has no closing bracket");

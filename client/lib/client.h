@@ -2,7 +2,8 @@
 // frame. Replies and frames share one connection; frames that come in between are kept. One thread at a time.
 //
 // Errors: what the daemon refused has its code ("unknown_segment"); otherwise `bad_address`, `cannot_connect`,
-// `connection_lost`, `timeout` or `bad_reply`. After `connection_lost` and `bad_reply` every call fails.
+// `connection_lost`, `timeout` or `bad_reply`. After `connection_lost` and `bad_reply` every call fails, unless the
+// connection is kept (keep_connected).
 #pragma once
 
 #include <chrono>
@@ -16,17 +17,30 @@
 
 namespace posed::client {
 
+// Who we say that we are.
+struct Identity {
+  std::string token;      // empty: none is asked for, and no hello is said
+  std::string user;       // empty: the token's
+  std::string authority;  // a file in PEM of whose certificates to trust; empty: those of the system
+};
+
 class Client {
  public:
   using Duration = std::chrono::milliseconds;
 
   // `address` as in "tcp://127.0.0.1:19870". The time-out is also that of the calls to come.
-  static Result<Client> connect(std::string_view address, Duration timeout = std::chrono::seconds(5));
+  static Result<Client> connect(std::string_view address, Duration timeout = std::chrono::seconds(5),
+                                Identity identity = {});
   ~Client();
   Client(Client&&) noexcept;
   Client& operator=(Client&&) noexcept;
 
   void set_timeout(Duration timeout);
+  // A connection that is lost is made anew, for as long as `patience`, by the next call and by next(), and subscribes
+  // to what it had subscribed to. The call whose reply was lost fails all the same: what it asked for may have been
+  // done.
+  void keep_connected(Duration patience);
+  std::uint64_t reconnected() const;  // how often
   // Called while a solve.batch that asks for "progress" is waited for.
   void on_progress(std::function<void(std::uint64_t done, std::uint64_t of)> told);
 

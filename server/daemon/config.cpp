@@ -79,15 +79,21 @@ std::optional<Config> read_config(int argc, const char* const* argv, int& exit_c
   app.add_option("--solver.deadline_ms", config.solve_deadline_ms, "a solve ends after this time")
       ->check(CLI::Range(0.1, 10'000.0))
       ->capture_default_str();
-  app.add_flag("--listen.open", open_network, "accept that an address beyond loopback has no token and no TLS yet");
+  app.add_option("--auth.tokens", config.tokens, "the file of who may come in; posectl token makes its lines");
+  app.add_option("--tls.certificate", config.tls_certificate, "a certificate in PEM, with those that lead to its root");
+  app.add_option("--tls.key", config.tls_key, "its private key in PEM");
+  app.add_flag("--listen.open", open_network, "accept an address beyond loopback without tokens or TLS");
   try {
     app.parse(argc, argv);
     parse_listen(listen, config);
-    if (!loopback(config.host) && !open_network) {
-      throw CLI::ValidationError(
-          "--listen",
-          config.host +
-              " can be reached from the network, and anybody there could edit; say --listen.open to accept that");
+    if (config.tls_certificate.empty() != config.tls_key.empty())
+      throw CLI::ValidationError("--tls.certificate", "a certificate and its --tls.key go together");
+    config.beyond_loopback = !loopback(config.host);
+    if (config.beyond_loopback && !open_network && (config.tokens.empty() || config.tls_key.empty())) {
+      throw CLI::ValidationError("--listen", config.host +
+                                                 " can be reached from the network, and anybody there could edit; give "
+                                                 "--auth.tokens, --tls.certificate and "
+                                                 "--tls.key, or say --listen.open to accept that");
     }
   } catch (const CLI::Success& success) {
     exit_code = app.exit(success);

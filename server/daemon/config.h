@@ -21,8 +21,11 @@ struct Config {
   std::filesystem::path scenes;
   std::string scene_template = "standing";
   LogLevel log = LogLevel::info;
-  std::string solve_method = "springs";  // or "reach_tree"
-  double solve_deadline_ms = 20.0;       // a solve that takes longer ends with the best pose so far
+  std::filesystem::path tokens;                    // empty: nobody is asked for one
+  std::filesystem::path tls_certificate, tls_key;  // empty: no TLS
+  bool beyond_loopback = false;                    // others can reach the address
+  std::string solve_method = "springs";            // or "reach_tree"
+  double solve_deadline_ms = 20.0;                 // a solve that takes longer ends with the best pose so far
 };
 
 // Reads the arguments. Where the program has to end instead (--help, --version, a mistake), prints what there is to

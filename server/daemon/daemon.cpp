@@ -12,11 +12,26 @@
 namespace posed {
 namespace {
 
+// Of strangers. On this machine whoever wants to be a nuisance needs no connection for it.
+constexpr std::size_t kConnectionsOfOneAddress = 200;
+constexpr Nanoseconds kAdmission = 30'000'000'000;  // to say session.hello with a token
+constexpr double kLinesOfOnePeer = 2000.0;          // a second
+
 net::Options network_options(const Config& config) {
   net::Options options;
   options.host = config.host;
   options.port = config.port;
   options.viewer = config.viewer;
+  if (!config.tokens.empty()) {
+    options.tokens = std::make_shared<const net::Tokens>(net::Tokens::read(config.tokens));
+    options.limits.admission = kAdmission;
+  }
+  if (!config.tls_key.empty())
+    options.tls = std::make_shared<const net::TlsContext>(config.tls_certificate, config.tls_key);
+  if (config.beyond_loopback) {
+    options.limits.connections_per_address = kConnectionsOfOneAddress;
+    options.limits.lines_per_second = kLinesOfOnePeer;
+  }
   return options;
 }
 
@@ -46,9 +61,11 @@ std::vector<std::unique_ptr<tracker::Tracker>> make_trackers(const Config& confi
 struct Daemon::Impl {
   explicit Impl(const Config& config)
       : store(config.data),
-        server(network_options(config), handlers(), clock),
+        network(network_options(config)),
+        server(network, handlers(), clock),
         pipeline(loop, server, store, Templates(config.scenes), clock),
         trackers(make_trackers(config, clock)) {
+    pipeline.tokens = network.tokens;
     pipeline.solving.deadline_ns = static_cast<Nanoseconds>(config.solve_deadline_ms * 1e6);
     pipeline.solving.method = pipeline.default_method = *find_method(config.solve_method);
     const Result<std::string> text = pipeline.templates.read(config.scene_template);
@@ -86,6 +103,7 @@ struct Daemon::Impl {
   Clock clock;
   Loop loop;
   Store store;
+  const net::Options network;
   net::Server server;
   Pipeline pipeline;
   std::vector<std::unique_ptr<tracker::Tracker>> trackers;

@@ -14,8 +14,8 @@ int main(int argc, char** argv) {
   try {
     posed::Daemon daemon(*config);
     const bool v6 = config->host.find(':') != std::string::npos;
-    std::printf("posed: the viewer is at http://%s%s%s:%u/ (stop with Ctrl-C)\n", v6 ? "[" : "", config->host.c_str(),
-                v6 ? "]" : "", static_cast<unsigned>(daemon.port()));
+    std::printf("posed: the viewer is at http%s://%s%s%s:%u/ (stop with Ctrl-C)\n", config->tls_key.empty() ? "" : "s",
+                v6 ? "[" : "", config->host.c_str(), v6 ? "]" : "", static_cast<unsigned>(daemon.port()));
     std::fflush(stdout);
     daemon.run(true);
   } catch (const std::exception& error) {

@@ -19,6 +19,15 @@ std::string metrics_page(const proto::StatsData& stats, const net::Counters& cou
   add("solve_seconds", "gauge", "Median time of a solve in the last second.", std::to_string(1e-6 * stats.solve_us));
   add("sample_to_send_seconds", "gauge", "Median time from a sample's arrival to its encoded pose in the last second.",
       std::to_string(1e-6 * stats.sample_to_send_us));
+  const auto age = [&](const char* name, const char* help, double us) {
+    add(name, "gauge", help, std::to_string(1e-6 * us));
+  };
+  age("frame_age_seconds", "Median age of stream frames when the kernel took them, in the last second.",
+      stats.frame_age_us);
+  age("frame_age_p99_seconds", "The same, of the oldest in a hundred.", stats.frame_age_p99_us);
+  age("acked_age_seconds", "Median age of stream frames when a viewer acknowledged them, in the last second.",
+      stats.acked_age_us);
+  age("acked_age_p99_seconds", "The same, of the oldest in a hundred.", stats.acked_age_p99_us);
   add("connections", "gauge", "Peers connected now.", std::to_string(stats.connections));
   add("stream_frames_total", "counter", "Stream frames handed to the kernel.", std::to_string(counters.frames));
   add("stream_dropped_total", "counter", "Stream frames that a newer one replaced before a slow peer took them.",

@@ -170,7 +170,11 @@ void Pipeline::on_tracker(const std::string& id, const std::string& kind, const 
 
 void Pipeline::on_opened(net::ConnectionId connection, net::Peer peer) {
   // Not "s" + ...: GCC 12 warns falsely of an overlap in it.
-  sessions[connection] = {std::string("s").append(std::to_string(next_session_++)), std::move(peer), "", {}};
+  sessions[connection] = {std::string("s").append(std::to_string(next_session_++)),
+                          std::move(peer),
+                          "",
+                          {},
+                          tokens ? proto::Role::none : proto::Role::operator_};
 }
 
 void Pipeline::on_closed(net::ConnectionId connection) {
@@ -193,6 +197,13 @@ void Pipeline::tick() {
   stats.sample_to_send_us = median_us(sample_to_send_);
   stats.connections = static_cast<int>(sessions.size());
   stats.dropped = counters.dropped;
+  const net::AgeCounts sent = counters.sent_age.since(counted_.sent_age);
+  const net::AgeCounts acked = counters.acked_age.since(counted_.acked_age);
+  counted_ = counters;
+  stats.frame_age_us = sent.quantile_us(0.5);
+  stats.frame_age_p99_us = sent.quantile_us(0.99);
+  stats.acked_age_us = acked.quantile_us(0.5);
+  stats.acked_age_p99_us = acked.quantile_us(0.99);
   publisher.publish_stats(stats);
   server.set_page("/metrics", "text/plain; version=0.0.4",
                   std::make_shared<const std::string>(metrics_page(stats, counters, scene.revision())));

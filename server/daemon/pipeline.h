@@ -32,6 +32,8 @@ struct Session {
   net::Peer peer;
   std::string user;
   proto::Software client;
+  proto::Role role = proto::Role::none;
+  bool token_refused = false;  // and said in the log
 };
 
 struct TrackerState {
@@ -74,7 +76,8 @@ class Pipeline {
   const std::string boot;
   Scene scene;
   Solving solving;
-  Method default_method = Method::springs;  // what solver.set goes back to
+  std::shared_ptr<const net::Tokens> tokens;  // none: everybody may do everything
+  Method default_method = Method::springs;    // what solver.set goes back to
   Publisher publisher;
   std::map<net::ConnectionId, Session> sessions;
   std::map<std::string, TrackerState> trackers;
@@ -104,6 +107,7 @@ class Pipeline {
   std::vector<Waiter> waiters_;
   std::uint64_t next_waiter_ = 0;
   std::uint64_t next_session_ = 1;
+  net::Counters counted_;  // at the last tick
   // Of the last second, bounded.
   std::vector<Nanoseconds> solve_times_, sample_to_send_;
 };

@@ -11,14 +11,15 @@ namespace {
 
 const std::vector<std::string> kPoseFields = {"world_from_segment", "q", "goals"};
 
-net::SharedLine share(std::string line) {
+net::SharedLine share(std::string line, proto::Stream stream, proto::Encoding encoding) {
+  if (encoding == proto::Encoding::cbor) line = proto::encode_cbor(line, stream);
   return std::make_shared<const std::string>(std::move(line));
 }
 
 }  // namespace
 
 bool Publisher::Channel::operator<(const Channel& o) const {
-  return std::tie(stream, figures, fields) < std::tie(o.stream, o.figures, o.fields);
+  return std::tie(stream, figures, fields, encoding) < std::tie(o.stream, o.figures, o.fields, o.encoding);
 }
 
 Status Publisher::check_fields(const std::vector<std::string>& fields) {
@@ -55,7 +56,7 @@ Status Publisher::check(const proto::StreamSubscribe& wish) const {
 }
 
 Publisher::Channel Publisher::channel_of(const proto::StreamSubscribe& wish) {
-  Channel channel{wish.stream, wish.figures, {}};
+  Channel channel{wish.stream, wish.figures, {}, wish.encoding};
   std::sort(channel.figures.begin(), channel.figures.end());
   channel.figures.erase(std::unique(channel.figures.begin(), channel.figures.end()), channel.figures.end());
   channel.fields = fields_of(wish.fields);
@@ -79,10 +80,12 @@ void Publisher::subscribe(net::ConnectionId connection, const proto::StreamSubsc
       scene_text_ = scene_text();
       scene_revision_ = scene_.revision();
     }
-    present = share(proto::encode_scene_snapshot(++state.seq, scene_revision_, scene_text_));
+    present =
+        share(proto::encode_scene_snapshot(++state.seq, scene_revision_, scene_text_), wish.stream, wish.encoding);
   }
   server_.subscribe(connection,
-                    {wish.stream, state.key, wish.max_rate_hz, wish.credit, wish.stream != proto::Stream::scene},
+                    {wish.stream, state.key, wish.max_rate_hz, wish.credit, wish.stream != proto::Stream::scene,
+                     wish.encoding == proto::Encoding::cbor},
                     std::move(present), state.seq);
 }
 
@@ -118,7 +121,12 @@ net::SharedLine Publisher::encode_pose(const Channel& channel, std::uint64_t seq
       data.figures.push_back(solving_.message(id));
     }
   }
-  return share(proto::encode_pose_frame(seq, data, channel.fields));
+  return share(proto::encode_pose_frame(seq, data, channel.fields), channel.stream, channel.encoding);
+}
+
+void Publisher::publish(const Channel& channel, State& state, net::SharedLine line, Nanoseconds t_ns) {
+  server_.publish(channel.stream, state.key, state.seq, std::move(line), channel.encoding == proto::Encoding::cbor,
+                  t_ns);
 }
 
 void Publisher::publish_pose(Nanoseconds t_ns) {
@@ -126,7 +134,7 @@ void Publisher::publish_pose(Nanoseconds t_ns) {
   for (auto& [channel, state] : channels_) {
     if (channel.stream != proto::Stream::pose) continue;
     ++state.seq;
-    server_.publish(channel.stream, state.key, state.seq, encode_pose(channel, state.seq, t_ns));
+    publish(channel, state, encode_pose(channel, state.seq, t_ns), t_ns);
   }
 }
 
@@ -134,8 +142,9 @@ void Publisher::publish_frame(const Frame& frame) {
   for (auto& [channel, state] : channels_) {
     if (channel.stream != proto::Stream::tracker) continue;
     ++state.seq;
-    state.last = share(proto::encode_tracker_frame(state.seq, tracker_message(frame)));
-    server_.publish(channel.stream, state.key, state.seq, state.last);
+    state.last =
+        share(proto::encode_tracker_frame(state.seq, tracker_message(frame)), channel.stream, channel.encoding);
+    publish(channel, state, state.last, frame.t_ns);
   }
 }
 
@@ -143,8 +152,8 @@ void Publisher::publish_stats(const proto::StatsData& stats) {
   for (auto& [channel, state] : channels_) {
     if (channel.stream != proto::Stream::stats) continue;
     ++state.seq;
-    state.last = share(proto::encode_stats_frame(state.seq, stats));
-    server_.publish(channel.stream, state.key, state.seq, state.last);
+    state.last = share(proto::encode_stats_frame(state.seq, stats), channel.stream, channel.encoding);
+    publish(channel, state, state.last);
   }
 }
 
@@ -155,16 +164,19 @@ std::string Publisher::scene_text() const {
 }
 
 void Publisher::publish_scene(const std::string& by) {
+  const auto followed = [](const auto& entry) { return entry.first.stream == proto::Stream::scene; };
+  if (std::none_of(channels_.begin(), channels_.end(), followed)) return;
+  std::string text = scene_text();
+  const std::string patch = proto::diff(scene_text_, text);
   for (auto& [channel, state] : channels_) {
     if (channel.stream != proto::Stream::scene) continue;
-    std::string text = scene_text();
     ++state.seq;
-    server_.publish(channel.stream, state.key, state.seq,
-                    share(proto::encode_scene_patch(state.seq, scene_revision_, scene_.revision(), by,
-                                                    proto::diff(scene_text_, text))));
-    scene_text_ = std::move(text);
-    scene_revision_ = scene_.revision();
+    publish(channel, state,
+            share(proto::encode_scene_patch(state.seq, scene_revision_, scene_.revision(), by, patch), channel.stream,
+                  channel.encoding));
   }
+  scene_text_ = std::move(text);
+  scene_revision_ = scene_.revision();
 }
 
 }  // namespace posed

@@ -42,6 +42,7 @@ class Publisher {
     proto::Stream stream;
     std::vector<std::string> figures;
     proto::PoseFields fields;
+    proto::Encoding encoding = proto::Encoding::json;
     bool operator<(const Channel& o) const;
   };
   struct State {
@@ -53,6 +54,7 @@ class Publisher {
   using Channels = std::map<Channel, State>;
 
   static Channel channel_of(const proto::StreamSubscribe& wish);
+  void publish(const Channel& channel, State& state, net::SharedLine line, Nanoseconds t_ns = 0);
   net::SharedLine encode_pose(const Channel& channel, std::uint64_t seq, Nanoseconds t_ns) const;
   std::string scene_text() const;
   void drop(Channels::iterator channel);

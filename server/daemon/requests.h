@@ -59,6 +59,7 @@ class Requests {
   void on(const proto::StreamUnsubscribe&, Responder);
   void on(const proto::StreamAck&, Responder);
 
+  Status allowed(const proto::Params& params) const;
   void answer(const Result<Edited>& edited, Responder& responder);
   void start_solving(proto::SolveBatch batch, bool alone, Responder responder);
   void answer_loaded(const Status& loaded, Responder& responder);

@@ -1,4 +1,6 @@
 // Lines, sessions, trackers and streams.
+#include <utility>
+
 #include "common/names.h"
 #include "server/daemon/requests.h"
 #include "server/daemon/sensor_message.h"
@@ -37,19 +39,54 @@ void Requests::handle(proto::Line line) {
       continue;
     }
     auto& request = std::get<proto::Request>(line.entries[i]);
+    if (const Status checked = allowed(request.params); !checked) {
+      Responder(answers, i, request.id).error(checked.error());
+      continue;
+    }
     if_revision_ = request.if_revision;
     std::visit([&](auto& params) { on(params, Responder(answers, i, request.id)); }, request.params);
   }
 }
 
+// By the role that the connection's token has given it.
+Status Requests::allowed(const proto::Params& params) const {
+  if (!p_.tokens) return Ok{};
+  const auto session = p_.sessions.find(connection_);
+  const proto::Role role = session == p_.sessions.end() ? proto::Role::none : session->second.role;
+  const proto::Role needed = proto::role_for(params);
+  if (role >= needed) return Ok{};
+  const std::string method(proto::method_name(params));
+  if (role == proto::Role::none)
+    return Error{"unauthorized", method + " wants a token", "/method", "say session.hello with your \"token\" first"};
+  return Error{"forbidden", std::string(proto::name_of(role)) + "s may not call " + method, "/method",
+               "ask for a token with the role " + std::string(proto::name_of(needed))};
+}
+
 void Requests::on(const proto::SessionHello& hello, Responder responder) {
+  std::optional<net::Tokens::Holder> holder;
+  if (p_.tokens) {
+    holder = p_.tokens->find(hello.token);
+    if (!holder) {
+      const auto session = p_.sessions.find(connection_);
+      if (session != p_.sessions.end() && !std::exchange(session->second.token_refused, true))
+        log_warning("a token of " + session->second.peer.address + " was refused");
+      return responder.error({"unauthorized",
+                              hello.token.empty() ? "this daemon asks for a token" : "nobody has this token",
+                              "/params/token", "as in session.hello {\"token\":\"…\"}; posectl token makes one"});
+    }
+  }
   Session& session = p_.sessions[connection_];
-  session.user = hello.user;
+  if (holder) {
+    session.role = holder->role;
+    p_.server.admit(connection_);
+  }
+  session.user = hello.user.empty() && holder ? holder->name : hello.user;
   session.client = hello.client;
   proto::HelloResult result;
   result.daemon = kDaemon;
   result.session = session.id;
   result.boot = p_.boot;
+  result.role = session.role;
   result.features = {"springs", "reach_tree", "solve"};
   result.t_ns = p_.clock.now();
   result.utc_ns = utc_now();
@@ -106,7 +143,12 @@ void Requests::on(const proto::TrackerList&, Responder responder) {
 void Requests::on(const proto::StreamSubscribe& wish, Responder responder) {
   if (const Status checked = p_.publisher.check(wish); !checked) return responder.params_error(checked.error());
   // The connection may be gone by now: then nobody would ever unsubscribe.
-  if (!p_.sessions.contains(connection_)) return responder.result(proto::SubscribeResult{wish.stream});
+  const auto session = p_.sessions.find(connection_);
+  if (session == p_.sessions.end()) return responder.result(proto::SubscribeResult{wish.stream});
+  if (wish.encoding == proto::Encoding::cbor && !session->second.peer.websocket) {
+    return responder.params_error({"encoding_needs_websocket", "CBOR has no lines: it goes over a WebSocket only",
+                                   "/encoding", "connect to /ws, or leave encoding out"});
+  }
   responder.result(proto::SubscribeResult{wish.stream});
   p_.publisher.subscribe(connection_, wish);
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/post.hpp>
+#include <cerrno>
 
 #include "common/log.h"
 #include "proto/codec.h"
@@ -26,20 +27,19 @@ constexpr int kUnsentBytes = 16 << 10;         // that the kernel takes from us 
 constexpr std::size_t kBurstBytes = 64 << 10;  // of replies, that may gather before they are sent
 constexpr std::size_t kFirstReply = 64 << 10;  // bytes expected of a reply before any has come
 
-bool would_block(const error_code& error) {
-  return error == asio::error::would_block || error == asio::error::try_again;
-}
-
 }  // namespace
 
-Connection::Connection(Hub& hub, Socket socket, ConnectionId id, std::string address)
+Connection::Connection(Hub& hub, Socket socket, ConnectionId id, std::string address, asio::ip::address remote)
     : hub_(hub),
       socket_(std::move(socket)),
       id_(id),
       address_(std::move(address)),
+      remote_(std::move(remote)),
+      wire_(socket_.native_handle()),
       outbox_(hub.options.limits.replies, hub.options.limits.reply_bytes, hub.tally),
       writer_(hub.tally),
-      expected_reply_(kFirstReply) {
+      expected_reply_(kFirstReply),
+      allowance_(hub.options.limits.lines_per_second) {
   add(hub_.tally.connections);
 }
 
@@ -51,7 +51,13 @@ void Connection::start() {
   error_code ignored;
   socket_.non_blocking(true, ignored);
   socket_.set_option(asio::ip::tcp::no_delay(true), ignored);
+  // A peer whose machine is gone is found out within a minute, also where nothing is said.
   socket_.set_option(asio::socket_base::keep_alive(true), ignored);
+  for (const auto& [option, value] :
+       {std::pair{TCP_KEEPIDLE, 20}, std::pair{TCP_KEEPINTVL, 10}, std::pair{TCP_KEEPCNT, 4}}) {
+    ::setsockopt(socket_.native_handle(), IPPROTO_TCP, option, &value, sizeof value);
+  }
+  since_ = heard_ = hub_.clock.now();
   face_ = std::make_unique<DetectFace>(*this, hub_.options.limits.http_request,
                                        [this](Detected detected) { return make_face(detected); });
   arm_read();
@@ -59,6 +65,7 @@ void Connection::start() {
 
 std::unique_ptr<Face> Connection::make_face(Detected detected) {
   const Limits& limits = hub_.options.limits;
+  if (plain_refused(detected)) return std::make_unique<LineFace>(*this, limits.line_bytes);
   if (detected == Detected::http) return std::make_unique<HttpFace>(*this, hub_.site, limits, hub_.tally);
   return std::make_unique<LineFace>(*this, limits.line_bytes);
 }
@@ -79,7 +86,7 @@ void Connection::notify(const SharedLine& line) {
   if (!closed_ && !parting_ && idle()) outbox_.send(line, outbox_.framing());
 }
 
-void Connection::subscribe(const Subscription& subscription, SharedLine present, std::uint64_t seq) {
+void Connection::subscribe(const Subscription& subscription, const StreamFrame& present, std::uint64_t seq) {
   if (closed_ || parting_) return;
   if (!small_buffer_) {
     // Bytes in the kernel can't be taken back: what waits there is the past.
@@ -89,7 +96,7 @@ void Connection::subscribe(const Subscription& subscription, SharedLine present,
     const int unsent = kUnsentBytes;
     ::setsockopt(socket_.native_handle(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &unsent, sizeof(unsent));
   }
-  outbox_.subscribe(subscription, std::move(present), seq, hub_.clock.now());
+  outbox_.subscribe(subscription, present, seq, hub_.clock.now());
   if (ended_) outbox_.waive_credit();
   hub_.subscriptions.add(this, subscription.stream, subscription.key);
 }
@@ -99,9 +106,12 @@ void Connection::unsubscribe(proto::Stream stream) {
   outbox_.unsubscribe(stream);
 }
 
-void Connection::publish(proto::Stream stream, std::uint64_t seq, const SharedLine& line, bool send) {
+void Connection::publish(proto::Stream stream, std::uint64_t seq, const StreamFrame& frame, Nanoseconds now,
+                         bool send) {
   if (closed_) return;
-  if (!outbox_.put(stream, seq, line, hub_.clock.now())) {
+  if (send && !write_armed_ && writer_.idle() && outbox_.pass(stream, seq, frame.t_ns(), now))
+    return written(writer_.write_frame(wire_, frame, outbox_.framing(), hub_.clock));
+  if (!outbox_.put(stream, seq, frame, now)) {
     overflow();
     return update();
   }
@@ -113,28 +123,16 @@ void Connection::flush() {
   arm_rate();
 }
 
-void Connection::overflow() {
-  part(close_code::kPolicy,
-       Error{"too_large",
-             std::to_string(outbox_.replies()) + " lines of " + std::to_string(outbox_.reply_bytes()) +
-                 " bytes wait unread",
-             "", "read faster, or ask for less at once"},
-       Owed::forget);
-}
-
 void Connection::part_now() {
   part(close_code::kGoingAway, std::nullopt, Owed::forget);
   update();
-}
-
-void Connection::check_deadline(Nanoseconds now) {
-  if (deadline_ != 0 && now >= deadline_) close("it took too long");
 }
 
 // ---- what a face asks for ----
 
 bool Connection::room() const {
   const Limits& limits = hub_.options.limits;
+  if (limits.lines_per_second > 0.0 && allowance_ < 1.0) return false;
   if (closed_ || parting_ || unanswered_ >= limits.unanswered || outbox_.reply_bytes() >= limits.unread_bytes)
     return false;
   // Nor more than whose replies will find room, as far as the last ones tell.
@@ -143,8 +141,9 @@ bool Connection::room() const {
 
 void Connection::hand_up(std::string_view text) {
   add(hub_.tally.lines);
+  allowance_ -= 1.0;
   proto::Line line = proto::decode_line(text);
-  take_acks(line, outbox_);
+  take_acks(line, outbox_, receive_t_ns_);
   if (line.entries.empty()) return;
   ++unanswered_;
   hub_.handlers.line(id_, std::move(line), receive_t_ns_);
@@ -152,6 +151,7 @@ void Connection::hand_up(std::string_view text) {
 
 void Connection::open(bool websocket) {
   opened_ = true;
+  since_ = hub_.clock.now();
   add(hub_.tally.peers);
   outbox_.set_framing(websocket ? Framing::text : Framing::line);
   hub_.handlers.opened(id_, Peer{address_, websocket});
@@ -174,6 +174,7 @@ void Connection::part(std::uint16_t close_code, std::optional<Error> last_words,
 
 void Connection::update() {
   retired_.clear();
+  refill(hub_.clock.now());
   for (;;) {
     pump();
     if (closed_ || parting_ || !face_->ready()) break;
@@ -182,25 +183,40 @@ void Connection::update() {
   close_if_done();
   arm_read();
   arm_rate();
+  arm_allowance();
+}
+
+// TLS begins with a byte that begins nothing else. False: nothing has come yet.
+bool Connection::sniff() {
+  if (sniffed_ || !hub_.options.tls) return true;
+  const int first = wire_.first_byte();
+  if (first < 0) return false;
+  sniffed_ = true;
+  if (first != kTlsHandshake) return true;
+  wire_.encrypt(*hub_.options.tls);
+  deadline(hub_.options.limits.http_request);  // for the handshake and what follows it
+  return true;
 }
 
 void Connection::on_readable() {
+  sniff();
+  refill(hub_.clock.now());
   std::vector<char>& scratch = hub_.scratch;
   for (int i = 0; i < kReadsInARow; ++i) {
-    error_code error;
-    const std::size_t size = socket_.read_some(asio::buffer(scratch), error);
-    if (would_block(error)) break;
-    if (error == asio::error::eof) {
+    const long got = wire_.receive(scratch.data(), scratch.size());
+    if (got < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) break;
+    if (got == 0) {
       on_end();
       break;
     }
-    if (error) return close("the peer is gone");
+    if (got < 0) return close("the peer is gone");
+    const auto size = static_cast<std::size_t>(got);
     add(hub_.tally.bytes_in, size);
     if (!parting_) {
-      receive_t_ns_ = hub_.clock.now();
+      receive_t_ns_ = heard_ = hub_.clock.now();
       face_->take(std::string_view(scratch.data(), size));
     }
-    if (closed_ || face_->stuck() || size < scratch.size()) break;
+    if (closed_ || face_->stuck() || (size < scratch.size() && !wire_.encrypted())) break;
   }
   update();
 }
@@ -240,6 +256,7 @@ void Connection::close_if_done() {
   if (closed_ || !parting_->said || parting_->shut || !idle()) return;
   parting_->shut = true;
   error_code ignored;
+  wire_.end();
   socket_.shutdown(Socket::shutdown_send, ignored);
   if (ended_ || hub_.stopping) {
     // To close with unread bytes would reset the connection, and our last words with it.
@@ -256,7 +273,6 @@ void Connection::close(const char* why) {
   log_debug("closed " + address_ + ": " + why);
   error_code ignored;
   socket_.close(ignored);
-  rate_timer_.reset();
   // Not here and now: it may be in the middle of a fan-out.
   asio::post(hub_.io, [self = shared_from_this()] { self->hub_.remove(*self); });
 }
@@ -265,6 +281,12 @@ void Connection::arm_read() {
   if (closed_ || ended_ || read_armed_) return;
   if (parting_ ? !parting_->shut : face_->stuck()) return;
   read_armed_ = true;
+  if (wire_.pending()) {  // which no socket shows
+    return asio::post(hub_.io, [self = shared_from_this()] {
+      self->read_armed_ = false;
+      if (!self->closed_) self->on_readable();
+    });
+  }
   socket_.async_wait(Socket::wait_read, [self = shared_from_this()](error_code error) {
     self->read_armed_ = false;
     if (!error && !self->closed_) self->on_readable();
@@ -275,7 +297,11 @@ void Connection::arm_read() {
 
 void Connection::pump() {
   if (closed_ || write_armed_) return;
-  switch (writer_.write(socket_.native_handle(), outbox_, hub_.clock.now())) {
+  written(writer_.write(wire_, outbox_, hub_.clock.now()));
+}
+
+void Connection::written(Writer::State state) {
+  switch (state) {
     case Writer::State::done:
       return;
     case Writer::State::blocked:
@@ -296,16 +322,15 @@ void Connection::arm_write() {
 void Connection::arm_rate() {
   if (closed_ || write_armed_) return;
   const auto due = outbox_.due();
-  if (!due || (rate_armed_ && *due >= rate_due_)) return;
-  if (!rate_timer_) rate_timer_.emplace(hub_.io);
-  rate_armed_ = true;
+  if (!due || (rate_due_ != 0 && rate_due_ <= *due)) return;
   rate_due_ = *due;
-  rate_timer_->expires_after(std::chrono::nanoseconds(std::max<Nanoseconds>(0, *due - hub_.clock.now())));
-  rate_timer_->async_wait([self = shared_from_this()](error_code error) {
-    if (error) return;  // set anew, or closed
-    self->rate_armed_ = false;
-    self->update();
-  });
+  hub_.wakes.at(*due, weak_from_this());
+}
+
+void Connection::wake(Nanoseconds due) {
+  if (due == rate_due_) rate_due_ = 0;
+  if (due == allowed_) allowed_ = 0;
+  update();
 }
 
 }  // namespace posed::net

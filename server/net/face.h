@@ -24,6 +24,8 @@ class Face {
   virtual bool ready() const = 0;
   // The peer sends no more. Called once, with everything before it taken.
   virtual void end() {}
+  // A sign of life that the peer must answer, if this face knows one.
+  virtual SharedLine heartbeat() const { return nullptr; }
   // The last bytes before the connection is closed, if this face has any.
   virtual SharedLine goodbye(std::uint16_t close_code) const { return (void)close_code, nullptr; }
 };

@@ -24,6 +24,7 @@ HttpRequest request_of(const http::request<http::empty_body>& message) {
   request.host = text(message[http::field::host]);
   request.origin = text(message[http::field::origin]);
   request.if_none_match = text(message[http::field::if_none_match]);
+  request.authorization = text(message[http::field::authorization]);
   request.upgrade = text(message[http::field::upgrade]);
   const auto connections = message.equal_range(http::field::connection);
   for (auto it = connections.first; it != connections.second; ++it) request.connection += text(it->value()) + ',';

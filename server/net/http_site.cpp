@@ -31,6 +31,8 @@ std::string_view reason(int status) {
       return "Not Modified";
     case 400:
       return "Bad Request";
+    case 401:
+      return "Unauthorized";
     case 403:
       return "Forbidden";
     case 404:
@@ -110,6 +112,12 @@ HttpReply HttpSite::upgrade(const HttpRequest& request) const {
   return reply;
 }
 
+bool HttpSite::may_read_pages(const HttpRequest& request) const {
+  constexpr std::string_view kScheme = "Bearer ";
+  const std::string_view given = request.authorization;
+  return !tokens_ || (given.starts_with(kScheme) && tokens_->find(given.substr(kScheme.size())));
+}
+
 HttpReply HttpSite::answer(const HttpRequest& request) {
   if (request.method != "GET" && request.method != "HEAD") {
     return plain_reply(405, "only GET and HEAD; requests go over the WebSocket at /ws or as JSON lines over TCP",
@@ -124,6 +132,10 @@ HttpReply HttpSite::answer(const HttpRequest& request) {
   if (path == "/ws") return upgrade(request);
   if (path == "/healthz") return plain_reply(200, "ok", "Cache-Control: no-store\r\n");
   if (const auto page = pages_.find(path); page != pages_.end()) {
+    if (!may_read_pages(request)) {
+      return plain_reply(401, "this page wants a token: send the header Authorization: Bearer TOKEN",
+                         "WWW-Authenticate: Bearer\r\nCache-Control: no-store\r\n");
+    }
     return {200, page->second.content_type, "Cache-Control: no-store\r\n", page->second.body};
   }
   if (auto file = files_.find(target)) {

@@ -8,11 +8,12 @@
 #include "server/net/host_policy.h"
 #include "server/net/http_files.h"
 #include "server/net/subscription.h"
+#include "server/net/tokens.h"
 
 namespace posed::net {
 
 struct HttpRequest {
-  std::string method, target, host, origin, if_none_match;
+  std::string method, target, host, origin, if_none_match, authorization;
   std::string upgrade, connection, websocket_key, websocket_version;
 };
 
@@ -25,7 +26,8 @@ struct HttpReply {
 
 class HttpSite {
  public:
-  HttpSite(HostPolicy policy, std::filesystem::path viewer) : policy_(std::move(policy)), files_(std::move(viewer)) {}
+  HttpSite(HostPolicy policy, std::filesystem::path viewer, std::shared_ptr<const Tokens> tokens = nullptr)
+      : policy_(std::move(policy)), files_(std::move(viewer)), tokens_(std::move(tokens)) {}
 
   void set_page(std::string path, std::string content_type, SharedLine body);
   // A reply of status 101 means: go on as a WebSocket.
@@ -38,9 +40,11 @@ class HttpSite {
   };
 
   HttpReply upgrade(const HttpRequest& request) const;
+  bool may_read_pages(const HttpRequest& request) const;
 
   HostPolicy policy_;
   HttpFiles files_;
+  std::shared_ptr<const Tokens> tokens_;
   std::map<std::string, Page, std::less<>> pages_;
 };
 

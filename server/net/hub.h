@@ -2,6 +2,8 @@
 #pragma once
 
 #include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/address.hpp>
+#include <map>
 #include <memory>
 #include <unordered_map>
 #include <vector>
@@ -9,6 +11,7 @@
 #include "server/net/http_site.h"
 #include "server/net/server.h"
 #include "server/net/subscriptions.h"
+#include "server/net/wakes.h"
 
 namespace posed::net {
 
@@ -17,7 +20,7 @@ struct Hub {
       : options(std::move(options_)),
         handlers(std::move(handlers_)),
         clock(clock_),
-        site(HostPolicy(loopback, options.hosts, options.origins), options.viewer),
+        site(HostPolicy(loopback, options.hosts, options.origins), options.viewer, options.tokens),
         scratch(64 << 10) {}
 
   const Options options;
@@ -28,7 +31,9 @@ struct Hub {
   Subscriptions subscriptions;
   std::vector<char> scratch;      // every read goes here first: a connection that is silent has no buffer
   boost::asio::io_context io{1};  // before the connections, after all that they use when its handlers are destroyed
+  Wakes wakes{io, clock};
   std::unordered_map<ConnectionId, std::shared_ptr<Connection>> connections;
+  std::map<boost::asio::ip::address, std::size_t> per_address;  // connections
   ConnectionId next_id = 1;
   bool stopping = false;
 

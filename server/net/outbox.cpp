@@ -15,32 +15,39 @@ bool Outbox::Slot::has_credit() const {
   return subscription.credit <= 0 || unacked.size() < static_cast<std::size_t>(subscription.credit);
 }
 
-// The time after `due` in a schedule that late timers do not shift, and that starts anew after a pause, without a
-// burst.
-Nanoseconds Outbox::Slot::after(Nanoseconds due, Nanoseconds now) const {
-  return (now - due < period ? due : now) + period;
+// The schedule is the clock's own: late timers do not shift it, a pause earns no burst, and all who ask for one rate
+// are due at once.
+Nanoseconds Outbox::Slot::after(Nanoseconds now) const {
+  return (now / period + 1) * period;
 }
 
 bool Outbox::Slot::loses(Nanoseconds now) {
   if (period == 0) return true;
   if (now < lost_due) return false;
-  lost_due = after(lost_due, now);
+  lost_due = after(now);
   return true;
 }
 
-void Outbox::queue(SharedLine bytes, Framing framing, bool frame) {
-  reply_bytes_ += bytes->size();
-  queue_.push_back({std::move(bytes), framing, frame});
+void Outbox::Slot::sent(UnderWay frame, Nanoseconds now) {
+  if (subscription.credit > 0) unacked.push_back(frame);
+  if (period > 0) next_due = after(now);
+  lost_due = next_due + period;
+}
+
+void Outbox::queue(Outgoing out) {
+  reply_bytes_ += out.bytes.size();
+  queue_.push_back(std::move(out));
 }
 
 bool Outbox::reply(SharedLine line) {
   // A single one may be larger than the cap: whoever made it has bounded it.
   if (replies() >= max_replies_ || (replies() > 0 && reply_bytes_ + line->size() > max_reply_bytes_)) return false;
-  queue(std::move(line), framing_, false);
+  queue(whole(std::move(line), framing_));
   return true;
 }
 
-void Outbox::subscribe(const Subscription& subscription, SharedLine present, std::uint64_t seq, Nanoseconds now) {
+void Outbox::subscribe(const Subscription& subscription, const StreamFrame& present, std::uint64_t seq,
+                       Nanoseconds now) {
   auto& s = slot(subscription.stream);
   s = std::make_unique<Slot>();
   s->subscription = subscription;
@@ -52,10 +59,10 @@ void Outbox::subscribe(const Subscription& subscription, SharedLine present, std
   s->lost_due = now + s->period;
   if (!present) return;
   if (subscription.thinned) {
-    s->newest = std::move(present);
+    s->newest = present;
     s->seq = seq;
   } else {
-    queue(std::move(present), framing_, true);
+    queue(outgoing(present));
   }
 }
 
@@ -63,12 +70,12 @@ void Outbox::unsubscribe_all() {
   for (auto& s : slots_) s.reset();
 }
 
-bool Outbox::put(proto::Stream stream, std::uint64_t seq, SharedLine line, Nanoseconds now) {
+bool Outbox::put(proto::Stream stream, std::uint64_t seq, const StreamFrame& frame, Nanoseconds now) {
   auto& s = slot(stream);
   if (!s) return true;
   if (!s->subscription.thinned) {
-    if (replies() >= max_replies_ || reply_bytes_ + line->size() > max_reply_bytes_) return false;
-    queue(std::move(line), framing_, true);
+    if (replies() >= max_replies_ || reply_bytes_ + frame.size() > max_reply_bytes_) return false;
+    queue(outgoing(frame));
     return true;
   }
   if (s->newest) {
@@ -76,16 +83,26 @@ bool Outbox::put(proto::Stream stream, std::uint64_t seq, SharedLine line, Nanos
     s->lost += loses;
     add(loses ? tally_.dropped : tally_.thinned);
   }
-  s->newest = std::move(line);
+  s->newest = frame;
   s->seq = seq;
   return true;
 }
 
-bool Outbox::ack(proto::Stream stream, std::uint64_t seq) {
+bool Outbox::pass(proto::Stream stream, std::uint64_t seq, Nanoseconds t_ns, Nanoseconds now) {
+  Slot* const s = slot(stream).get();
+  if (!s || s->newest || s->lost > 0 || replies() > 0 || !s->subscription.thinned || !s->may_send(now)) return false;
+  s->sent({seq, t_ns}, now);
+  return true;
+}
+
+bool Outbox::ack(proto::Stream stream, std::uint64_t seq, Nanoseconds now) {
   auto& s = slot(stream);
   if (!s) return false;
   auto& unacked = s->unacked;
-  unacked.erase(unacked.begin(), std::upper_bound(unacked.begin(), unacked.end(), seq));
+  const auto end = std::find_if(unacked.begin(), unacked.end(), [&](const UnderWay& frame) { return frame.seq > seq; });
+  // The newest of them is what the peer sees; it may acknowledge several at once.
+  if (end != unacked.begin() && std::prev(end)->t_ns != 0) tally_.acked_age.add(now - std::prev(end)->t_ns);
+  unacked.erase(unacked.begin(), end);
   return true;
 }
 
@@ -98,7 +115,7 @@ void Outbox::waive_credit() {
 std::optional<Outgoing> Outbox::next(Nanoseconds now) {
   if (head_ < queue_.size()) {
     Outgoing out = std::move(queue_[head_++]);
-    reply_bytes_ -= out.bytes->size();
+    reply_bytes_ -= out.bytes.size();
     if (head_ == queue_.size()) {
       queue_.clear();
       head_ = 0;
@@ -111,18 +128,16 @@ std::optional<Outgoing> Outbox::next(Nanoseconds now) {
   for (std::size_t i = 0; i < slots_.size(); ++i) {
     const std::size_t at = (turn_ + i) % slots_.size();
     Slot* const s = slots_[at].get();
-    if (!s || !s->newest || !s->has_credit() || now < s->next_due) continue;
+    if (!s || !s->newest || !s->may_send(now)) continue;
     if (s->lost > 0) {
       auto told = std::make_shared<const std::string>(proto::encode_lost(s->subscription.stream, s->lost));
       s->lost = 0;
       turn_ = at;  // its frame follows
-      return Outgoing{std::move(told), framing_, false};
+      return whole(std::move(told), framing_);
     }
-    if (s->subscription.credit > 0) s->unacked.push_back(s->seq);
-    if (s->period > 0) s->next_due = s->after(s->next_due, now);
-    s->lost_due = s->next_due + s->period;
+    s->sent({s->seq, s->newest.t_ns()}, now);
     turn_ = at + 1;
-    return Outgoing{std::exchange(s->newest, nullptr), framing_, true};
+    return outgoing(std::exchange(s->newest, {}));
   }
   return std::nullopt;
 }

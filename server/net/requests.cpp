@@ -6,14 +6,14 @@
 
 namespace posed::net {
 
-void take_acks(proto::Line& line, Outbox& outbox) {
+void take_acks(proto::Line& line, Outbox& outbox, Nanoseconds now) {
   auto& entries = line.entries;
   auto kept = entries.begin();
   for (auto& entry : entries) {
     const auto* request = std::get_if<proto::Request>(&entry);
     const auto* ack = request ? std::get_if<proto::StreamAck>(&request->params) : nullptr;
     if (ack) {
-      const bool known = outbox.ack(ack->stream, ack->seq);
+      const bool known = outbox.ack(ack->stream, ack->seq, now);
       if (request->id.empty()) continue;
       if (!known) {
         const std::string name(proto::stream_name(ack->stream));

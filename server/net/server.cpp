@@ -45,13 +45,18 @@ struct Publish {
   std::uint32_t key;
   std::uint64_t seq;
   SharedLine line;
+  bool binary;
+  Nanoseconds t_ns;
+};
+struct Admit {
+  ConnectionId connection;
 };
 struct SetPage {
   std::string path, content_type;
   SharedLine body;
 };
 struct Stop {};
-using Command = std::variant<Reply, Notify, Subscribe, Unsubscribe, Publish, SetPage, Stop>;
+using Command = std::variant<Reply, Notify, Subscribe, Unsubscribe, Publish, Admit, SetPage, Stop>;
 
 void raise_descriptor_limit() {
   rlimit limit{};
@@ -112,7 +117,8 @@ struct Server::Impl {
   void take(Subscribe& c) {
     Connection* const connection = find(c.connection);
     if (!connection) return;
-    connection->subscribe(c.subscription, std::move(c.present), c.seq);
+    connection->subscribe(c.subscription, c.present ? StreamFrame(*c.present, c.subscription.binary) : StreamFrame(),
+                          c.seq);
     update_later(*connection);
   }
   void take(Unsubscribe& c) {
@@ -122,10 +128,15 @@ struct Server::Impl {
     update_later(*connection);
   }
   void take(Publish& c) {
+    const StreamFrame frame(*c.line, c.binary, c.t_ns);
+    const Nanoseconds now = hub.clock.now();
     hub.subscriptions.for_each(c.stream, c.key, [&](Connection& connection) {
-      connection.publish(c.stream, c.seq, c.line, !backlog);
+      connection.publish(c.stream, c.seq, frame, now, !backlog);
       if (backlog) update_later(connection);
     });
+  }
+  void take(Admit& c) {
+    if (Connection* const connection = find(c.connection)) connection->admit();
   }
   void take(SetPage& c) { hub.site.set_page(std::move(c.path), std::move(c.content_type), std::move(c.body)); }
   void take(Stop&);
@@ -135,7 +146,7 @@ struct Server::Impl {
     sweep_timer.async_wait([this](boost::system::error_code error) {
       if (error) return;
       const Nanoseconds now = hub.clock.now();
-      for (const auto& [id, connection] : hub.connections) connection->check_deadline(now);
+      for (const auto& [id, connection] : hub.connections) connection->check(now);
       sweep();
     });
   }
@@ -207,8 +218,13 @@ void Server::unsubscribe(ConnectionId connection, proto::Stream stream) {
   impl_->post(Unsubscribe{connection, stream});
 }
 
-void Server::publish(proto::Stream stream, std::uint32_t key, std::uint64_t seq, SharedLine line) {
-  impl_->post(Publish{stream, key, seq, std::move(line)});
+void Server::publish(proto::Stream stream, std::uint32_t key, std::uint64_t seq, SharedLine line, bool binary,
+                     Nanoseconds t_ns) {
+  impl_->post(Publish{stream, key, seq, std::move(line), binary, t_ns});
+}
+
+void Server::admit(ConnectionId connection) {
+  impl_->post(Admit{connection});
 }
 
 void Server::set_page(std::string path, std::string content_type, SharedLine body) {

@@ -19,6 +19,7 @@ struct Subscription {
   double max_rate_hz = 0.0;  // 0: no cap
   int credit = 0;            // frames beyond the last stream.ack; 0: no credit wanted
   bool thinned = true;       // newest wins; false: every line is queued like a reply
+  bool binary = false;       // its frames are no text: for a WebSocket only
 };
 
 }  // namespace posed::net

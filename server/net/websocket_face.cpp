@@ -38,6 +38,10 @@ void WebsocketFace::take(const FrameReader::Message& message) {
   }
 }
 
+SharedLine WebsocketFace::heartbeat() const {
+  return std::make_shared<const std::string>(control_frame(Opcode::ping, ""));
+}
+
 SharedLine WebsocketFace::goodbye(std::uint16_t close_code) const {
   return std::make_shared<const std::string>(close_frame(close_code, ""));
 }

@@ -14,6 +14,7 @@ class WebsocketFace : public Face {
   bool stuck() const override { return stuck_; }
   bool ready() const override { return stuck_ && link_.room(); }
   void end() override { link_.part(close_code::kNormal, std::nullopt, Link::Owed::forget); }
+  SharedLine heartbeat() const override;
   SharedLine goodbye(std::uint16_t close_code) const override;
 
  private:

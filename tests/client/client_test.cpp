@@ -16,14 +16,21 @@ using std::chrono::seconds;
 
 TEST(Address, IsReadAsPeopleWriteIt) {
   const std::pair<const char*, const char*> good[] = {
-      {"tcp://127.0.0.1:1", "127.0.0.1:1"}, {"localhost", "localhost:19870"}, {"tcp://lab/", "lab:19870"},
-      {"lab:65535", "lab:65535"},           {"tcp://[::1]:7", "[::1]:7"},     {"[::1]", "[::1]:19870"},
+      {"tcp://127.0.0.1:1", "127.0.0.1:1"},
+      {"localhost", "localhost:19870"},
+      {"tcp://lab/", "lab:19870"},
+      {"lab:65535", "lab:65535"},
+      {"tcp://[::1]:7", "[::1]:7"},
+      {"[::1]", "[::1]:19870"},
+      {"tls://lab:1", "lab:1"},
   };
   for (const auto& [text, expected] : good) {
     const auto address = parse_address(text);
     ASSERT_TRUE(address) << text;
     EXPECT_EQ(address->text(), expected);
   }
+  EXPECT_TRUE(parse_address("tls://lab")->tls);
+  EXPECT_FALSE(parse_address("tcp://lab")->tls);
   for (const char* text :
        {"", "tcp://", "ws://lab", ":1", "lab:", "lab:0", "lab:65536", "lab:1x", "::1", "[::1", "[::1]x"}) {
     const auto address = parse_address(text);
@@ -129,6 +136,51 @@ TEST(Client, ALostConnectionStaysLost) {
     EXPECT_EQ(result.error().code, "connection_lost");
   }
   EXPECT_EQ(client->next(seconds(1)).error().code, "connection_lost");
+}
+
+// The daemon closes after each second frame: the follower notices nothing but a pause.
+TEST(Client, AKeptConnectionComesBackWithItsSubscriptions) {
+  std::uint64_t seq = 0;
+  PlayedDaemon daemon([&](const proto::Request& request) -> Lines {
+    if (std::get_if<proto::StreamAck>(&request.params)) return {};
+    if (!std::get_if<proto::StreamSubscribe>(&request.params)) return reply(request, proto::PingResult{1, 2});
+    Lines lines = reply(request, proto::SubscribeResult{proto::Stream::stats});
+    for (int i = 0; i < 2; ++i) lines.push_back(proto::encode_stats_frame(++seq, {}) + "\n");
+    lines.emplace_back("close");
+    return lines;
+  });
+  auto client = Client::connect(daemon.address(), seconds(60), {"secret", "ana", ""});
+  ASSERT_TRUE(client);
+  client->keep_connected(seconds(60));
+  ASSERT_TRUE(client->subscribe({proto::Stream::stats, {}, {}, 5.0, 3}));
+  for (std::uint64_t expected = 1; expected <= 6; ++expected) {
+    const auto frame = client->next(seconds(60));
+    ASSERT_TRUE(frame) << frame.error().message;
+    EXPECT_EQ(frame->seq, expected);
+  }
+  EXPECT_EQ(client->reconnected(), 2u);
+  int hellos = 0, subscriptions = 0;
+  for (const std::string& line : daemon.lines()) {
+    hellos += line.find("\"token\":\"secret\"") != std::string::npos;
+    subscriptions += line.find("\"max_rate_hz\":5") != std::string::npos;
+  }
+  EXPECT_EQ(hellos, 3);
+  EXPECT_EQ(subscriptions, 3);
+}
+
+TEST(Client, ACallWhoseReplyWasLostIsNotSentAgainAndTheNextOneIsHeard) {
+  int calls = 0;
+  PlayedDaemon daemon([&](const proto::Request& request) {
+    return ++calls == 1 ? Lines{"close"} : reply(request, proto::PingResult{1, 2});
+  });
+  auto client = Client::connect(daemon.address(), seconds(60));
+  ASSERT_TRUE(client);
+  client->keep_connected(seconds(60));
+  const auto lost = client->call("session.ping");
+  ASSERT_FALSE(lost) << "it may have been done";
+  EXPECT_EQ(lost.error().code, "connection_lost");
+  EXPECT_TRUE(client->call("session.ping"));
+  EXPECT_EQ(calls, 2);
 }
 
 TEST(Client, ALateReplyIsNotTakenForAnother) {

@@ -61,6 +61,7 @@ Lines answer(const proto::Request& request) {
       goal.state = GoalState::balanced;
       goal.error = 0.0341;
       figure.goals = {goal};
+      figure.world_from_segment = {{{0.1, -0.2, 1.0}, quat_identity()}};
       proto::PoseData data;
       data.t_ns = static_cast<Nanoseconds>(seq) * 1'000'000'000;
       data.revision = 9;
@@ -70,6 +71,15 @@ Lines answer(const proto::Request& request) {
     return lines;
   }
   if (std::get_if<proto::StreamAck>(params)) return {};
+  if (std::get_if<proto::SessionHello>(params)) return reply(request, proto::HelloResult{});
+  if (std::get_if<proto::SessionPing>(params)) return reply(request, proto::PingResult{1, 2});
+  if (std::get_if<proto::FigureGet>(params)) {
+    proto::FigureResult figure;
+    figure.entry.template_name = "tempus";
+    figure.document.segments.resize(1);
+    figure.document.segments[0].name = "hips";
+    return reply(request, figure);
+  }
   if (const auto* set = std::get_if<proto::GoalSet>(params)) {
     return reply(request, proto::EditResult{set->edit.id.empty() ? "made" : set->edit.id, 8, 1});
   }
@@ -135,6 +145,58 @@ TEST_F(Posectl, WatchStopsAfterTheCount) {
   const Outcome json = run("--json watch --count 1");
   EXPECT_EQ(json.code, 0);
   EXPECT_TRUE(json.out.starts_with("{") && has(json.out, "\"t_ns\":1000000000")) << json.out;
+}
+
+TEST_F(Posectl, WatchesAsRowsAndAsATable) {
+  const Outcome csv = run("watch pose --csv --count 2");
+  EXPECT_EQ(csv.code, 0) << csv.err;
+  EXPECT_EQ(csv.out,
+            "t_ns,revision,figure,segment,x,y,z,qx,qy,qz,qw\n"
+            "1000000000,9,body,hips,0.100000,-0.200000,1.000000,0.0000000,0.0000000,0.0000000,1.0000000\n"
+            "2000000000,9,body,hips,0.100000,-0.200000,1.000000,0.0000000,0.0000000,0.0000000,1.0000000\n");
+  const Outcome table = run("watch pose --table --count 2");
+  EXPECT_EQ(table.code, 0) << table.err;
+  EXPECT_TRUE(has(table.out, "body  converged") && has(table.out, "balanced") && has(table.out, "34.1")) << table.out;
+  EXPECT_TRUE(has(table.out, "age ") && has(table.out, "left out 0")) << table.out;
+  EXPECT_EQ(run("watch scene --csv").code, 2);
+  EXPECT_EQ(run("watch --csv --table").code, 2);
+}
+
+TEST_F(Posectl, ErrorsMayBeJsonToo) {
+  const Outcome refused = run("--json goal remove x");
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_TRUE(has(refused.err, R"("code":"unknown_goal")") && has(refused.err, R"("path":"/params/id")"))
+      << refused.err;
+}
+
+TEST_F(Posectl, ATokenIsSaidFirst) {
+  ASSERT_EQ(run("--token secret status").code, 0);
+  EXPECT_TRUE(has(daemon.lines().front(), "session.hello") && has(daemon.lines().front(), R"("token":"secret")"))
+      << daemon.lines().front();
+}
+
+TEST(PosectlAlone, TokensAreMadeAndNeverTheSame) {
+  const Outcome one = posectl("token editor ana"), other = posectl("token editor ana");
+  EXPECT_EQ(one.code, 0) << one.err;
+  EXPECT_TRUE(one.out.starts_with("editor ana sha256:")) << one.out;
+  EXPECT_EQ(one.out.size(), std::string("editor ana sha256:\n").size() + 64);
+  EXPECT_NE(one.out, other.out);
+  EXPECT_TRUE(has(one.err, "the token of ana")) << one.err;
+  EXPECT_EQ(posectl("token king ana").code, 2);
+  EXPECT_EQ(posectl("token editor 'a b'").code, 2);
+}
+
+TEST(PosectlAlone, AShellCompletesItsWords) {
+  const std::string source = "source <(" POSED_PROGRAMS "/posectl completion bash); ";
+  const auto completed = [&](const std::string& words) {
+    const Outcome done = posectl("completion bash >/dev/null; bash -c '" + source + "COMP_WORDS=(" + words +
+                                 "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _posectl; echo ${COMPREPLY[*]}'");
+    return done.out;
+  };
+  EXPECT_TRUE(has(completed("posectl st"), "status")) << completed("posectl st");
+  EXPECT_TRUE(has(completed("posectl goal se"), "set"));
+  EXPECT_TRUE(has(completed("posectl watch tr"), "tracker"));
+  EXPECT_TRUE(has(completed("posectl watch pose --c"), "--count --csv")) << completed("posectl watch pose --c");
 }
 
 TEST_F(Posectl, Goals) {

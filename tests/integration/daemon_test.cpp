@@ -141,13 +141,39 @@ TEST(Daemon, WhatIsReservedIsRefusedNotAliased) {
       {"goal.set", R"({"at":"head","position":[0,0,1],"relative_to":{"object":"chair"}})"},
       {"binding.set", R"({"sensor":"simulated:1","to":{"camera":"main"}})"},
       {"edit.undo", "{}"},
-      {"stream.subscribe", R"({"stream":"pose","encoding":"cbor"})"},
   };
   for (const auto& [method, params] : reserved) {
     const auto reply = client.call(method, params);
     ASSERT_FALSE(reply) << method << params;
     EXPECT_EQ(reply.error().code, "not_available") << method << params << reply.error().message;
   }
+}
+
+TEST(Daemon, TheAgeOfFramesIsInTheStatistics) {
+  const RunningDaemon daemon({"simulated:5"});
+  auto client = daemon.connect();
+  ASSERT_TRUE(client.subscribe({proto::Stream::tracker, {}, {}, 0.0, 3}));
+  ASSERT_TRUE(client.subscribe({proto::Stream::stats, {}, {}, 0.0, 0}));
+  for (;;) {
+    const auto frame = client.next(kPatience);
+    ASSERT_TRUE(frame) << frame.error().message;
+    if (frame->stream != proto::Stream::stats) continue;
+    const auto stats = proto::decode_message<proto::StatsData>(frame->data);
+    ASSERT_TRUE(stats);
+    if (stats->frame_age_us == 0.0 || stats->acked_age_us == 0.0) continue;  // of a second before we followed
+    EXPECT_LE(stats->frame_age_us, stats->frame_age_p99_us);
+    EXPECT_LE(stats->acked_age_us, stats->acked_age_p99_us);
+    EXPECT_LE(stats->frame_age_us, stats->acked_age_p99_us) << "it is sent before it is seen";
+    return;
+  }
+}
+
+TEST(Daemon, CborNeedsAWebSocket) {
+  const RunningDaemon daemon;
+  const auto reply = daemon.connect().call("stream.subscribe", R"({"stream":"pose","encoding":"cbor"})");
+  ASSERT_FALSE(reply);
+  EXPECT_EQ(reply.error().code, "encoding_needs_websocket");
+  EXPECT_EQ(reply.error().path, "/params/encoding");
 }
 
 TEST(Daemon, TheMethodIsSpringsUntilAnotherIsChosen) {

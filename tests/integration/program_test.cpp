@@ -105,6 +105,10 @@ TEST(Program, MistakesOnTheCommandLineAreOneClearLine) {
       {{"--lisen", "127.0.0.1:1"}, "--lisen"},
       {{"--listen", "nonsense"}, "HOST:PORT"},
       {{"--listen", "0.0.0.0:0"}, "--listen.open"},
+      {{"--listen", "0.0.0.0:0"}, "--tls.certificate"},
+      {{"--listen", "0.0.0.0:0", "--auth.tokens", "tokens"}, "--listen.open"},
+      {{"--listen", "[::]:0", "--tls.certificate", "c", "--tls.key", "k"}, "--auth.tokens"},
+      {{"--tls.certificate", "c"}, "--tls.key"},
       {{"--log", "loud"}, "loud"},
       {{"--config", "/nonexistent/posed.conf"}, "posed.conf"},
   };

@@ -179,7 +179,7 @@ TEST(StreamText, AnErrorLetterOfAnyByteLeavesTheLineWhole) {
 TEST(StreamText, StatsSceneAndLost) {
   const json stats = data_of(encode_stats_frame(83, {1, 2, 3, 84.2, 1e-9, 4, 5}));
   EXPECT_EQ(stats, json::parse(R"({"t_ns":1,"frames":2,"solves":3,"solve_us":84.2,"sample_to_send_us":1e-9,
-                                   "connections":4,"dropped":5})"));
+                                   "connections":4,"dropped":5,"frame_age_us":0,"frame_age_p99_us":0,"acked_age_us":0,"acked_age_p99_us":0})"));
   const std::string document = encode_scene({});
   EXPECT_EQ(data_of(encode_scene_snapshot(1, 21, document)),
             (json{{"revision", 21}, {"document", json::parse(document)}}));

@@ -26,7 +26,11 @@ export class Session {
   async start(): Promise<void> {
     const { model, rpc } = this;
     const client = { name: "posed-web", version: "0.1.0" };
-    model.beginSession(await rpc.request<HelloReply>("session.hello", { protocol: 1, client }));
+    // A daemon that asks for a token gets the one of the page's address, https://HOST/#token=...
+    const token = new URLSearchParams(globalThis.location?.hash.slice(1) ?? "").get("token");
+    model.beginSession(
+      await rpc.request<HelloReply>("session.hello", { protocol: 1, client, ...(token ? { token } : {}) }),
+    );
     await Promise.all([this.fetchTrackers(), this.fetchMenu(), this.subscribeScene()]);
     await this.streams.subscribe(
       { stream: "pose", fields: ["world_from_segment", "goals"], max_rate_hz: 60, credit: 3 },

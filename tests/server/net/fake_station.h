@@ -138,8 +138,10 @@ class FakeStation {
   std::string answer(ConnectionId id, const proto::Request& request, Nanoseconds t_ns,
                      std::vector<std::function<void()>>& after) {
     if (const auto* wish = std::get_if<proto::StreamSubscribe>(&request.params)) {
-      const Subscription subscription{wish->stream, 0, wish->max_rate_hz, wish->credit,
-                                      wish->stream != proto::Stream::scene};
+      const bool binary = wish->encoding == proto::Encoding::cbor;
+      const Subscription subscription{
+          wish->stream, binary ? 1u : 0u, wish->max_rate_hz, wish->credit, wish->stream != proto::Stream::scene,
+          binary};
       after.push_back(
           [this, id, subscription] { server.subscribe(id, subscription, frame(0, 0, subscription.stream), 0); });
       return proto::encode_reply(request.id, proto::SubscribeResult{wish->stream});

@@ -217,6 +217,52 @@ TEST_F(Websocket, RequestsAndFrames) {
   EXPECT_TRUE(eventually([&] { return station->open_peers().empty(); }));
 }
 
+TEST_F(Websocket, FramesInCborAreBinaryAndAllElseIsText) {
+  Stream stream(io);
+  ASSERT_FALSE(connect(stream));
+  proto::StreamSubscribe wish{proto::Stream::stats, {}, {}, 0.0, 0};
+  wish.encoding = proto::Encoding::cbor;
+  write(stream, proto::encode_request(1, wish));
+  EXPECT_EQ(incoming(stream).id, 1);
+  EXPECT_TRUE(stream.got_text());
+  read(stream);
+  EXPECT_TRUE(stream.got_binary()) << "the present, too";
+  const std::string bytes = std::string("\xbf\x00\xff\n", 4) + std::string(200, '\xf6');
+  station->server.publish(proto::Stream::stats, 1, 1, share(bytes), true);
+  EXPECT_EQ(read(stream), bytes);
+  EXPECT_TRUE(stream.got_binary());
+  write(stream, proto::encode_request(2, proto::SessionPing{}));
+  EXPECT_EQ(incoming(stream).id, 2);
+  EXPECT_TRUE(stream.got_text());
+}
+
+// A viewer that is silent is asked whether it is there, whatever its streams do.
+TEST(WebsocketHeartbeat, WhoAnswersStaysAndWhoDoesNotIsClosed) {
+  Options options = options_on_a_free_port();
+  options.limits.heartbeat = 300'000'000;
+  FakeStation station(std::move(options));
+  const std::string handshake =
+      "GET /ws HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+      "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n";
+  RawPeer dead(station.server.port()), alive(station.server.port()), lines(station.server.port());
+  for (RawPeer* peer : {&dead, &alive}) {
+    peer->send(handshake);
+    EXPECT_TRUE(peer->until("\r\n\r\n").starts_with("HTTP/1.1 101"));
+  }
+  lines.call(proto::SessionPing{});
+  const std::string asked("\x89\x00", 2), answer("\x8a\x80\0\0\0\0", 6);
+  for (int i = 0; i < 6; ++i) {
+    ASSERT_EQ(alive.bytes(2), asked);
+    alive.send(answer);
+  }
+  EXPECT_TRUE(eventually([&] { return station.open_peers().size() == 2; }))
+      << "alive, and JSON lines that have no such thing";
+  EXPECT_EQ(dead.bytes(2), asked);
+  dead.rest();
+  ASSERT_EQ(alive.bytes(2), asked);
+  EXPECT_EQ(lines.call(proto::SessionPing{}, 2).id, 2);
+}
+
 TEST_F(Websocket, FragmentsAndPings) {
   Stream stream(io);
   ASSERT_FALSE(connect(stream));

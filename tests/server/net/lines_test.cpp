@@ -304,6 +304,51 @@ TEST(Lines, ThereIsALimitOfConnections) {
   EXPECT_EQ(RawPeer(station.server.port()).call(proto::SessionPing{}).id, 1);
 }
 
+TEST(Lines, OneAddressHasSoManyConnectionsAndGetsThemBack) {
+  Options options = options_on_a_free_port();
+  options.limits.connections_per_address = 2;
+  FakeStation station(std::move(options));
+  for (int round = 0; round < 3; ++round) {
+    RawPeer first(station.server.port()), second(station.server.port());
+    EXPECT_EQ(first.call(proto::SessionPing{}).id, 1);
+    EXPECT_EQ(second.call(proto::SessionPing{}).id, 1);
+    RawPeer third(station.server.port());
+    EXPECT_TRUE(third.at_end());
+    first.close();
+    second.close();
+    ASSERT_TRUE(eventually([&] { return station.server.counters().connections == 0; }));
+  }
+  EXPECT_EQ(station.server.counters().refused, 3u);
+}
+
+TEST(Lines, WhoDoesNotShowWhoItIsIsClosed) {
+  Options options = options_on_a_free_port();
+  options.limits.admission = 500'000'000;
+  FakeStation station(std::move(options));
+  RawPeer known(station.server.port());
+  EXPECT_EQ(known.call(proto::SessionPing{}).id, 1);
+  station.server.admit(station.open_peers().begin()->first);
+  RawPeer silent(station.server.port()), stranger(station.server.port());
+  EXPECT_EQ(stranger.call(proto::SessionPing{}).id, 1);
+  EXPECT_TRUE(silent.at_end());
+  EXPECT_TRUE(stranger.at_end());
+  EXPECT_EQ(known.call(proto::SessionPing{}, 2).id, 2);
+}
+
+TEST(Lines, WhoSendsTooFastIsReadMoreSlowlyAndLosesNothing) {
+  Options options = options_on_a_free_port();
+  options.limits.lines_per_second = 200.0;
+  FakeStation station(std::move(options));
+  RawPeer peer(station.server.port());
+  std::string text;
+  for (int i = 1; i <= 300; ++i) text += ping(i);
+  const auto begin = std::chrono::steady_clock::now();
+  peer.send(text);
+  for (int i = 1; i <= 300; ++i) ASSERT_EQ(peer.incoming().id, i);
+  // A second's worth at once, and the rest at its rate.
+  EXPECT_GE(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(450));
+}
+
 TEST(Lines, WithoutDescriptorsAPeerWaitsInTheQueue) {
   FakeStation station;
   RawPeer first(station.server.port());

@@ -35,6 +35,42 @@ TEST(Streams, EveryoneGetsTheSameLine) {
   EXPECT_EQ(stranger.rest(), "") << "nothing unsolicited";
 }
 
+TEST(Streams, TheAgeOfWhatIsSentIsCounted) {
+  FakeStation station;
+  RawPeer peer(station.server.port());
+  peer.follow(wish(1));
+  peer.send(ack(0));
+  const Nanoseconds old = 3'600'000'000'000;
+  station.server.publish(Stream::stats, 0, 1, FakeStation::frame(1), false, station.clock.now() - old);
+  EXPECT_EQ(peer.incoming().seq, 1u);
+  ASSERT_TRUE(eventually([&] { return station.server.counters().sent_age.total() == 1; })) << "a frame without a time";
+  EXPECT_NEAR(station.server.counters().sent_age.quantile_us(0.5), 3.6e9, 0.1 * 3.6e9);
+  peer.send(ack(1));
+  ASSERT_TRUE(eventually([&] { return station.server.counters().acked_age.total() == 1; }));
+  EXPECT_NEAR(station.server.counters().acked_age.quantile_us(0.5), 3.6e9, 0.1 * 3.6e9);
+}
+
+TEST(Streams, AViewerThatStopsReadingIsKeptUnlessItIsOwedAReply) {
+  Options options = options_on_a_free_port();
+  options.limits.unread_reply = 300'000'000;
+  FakeStation station(std::move(options));
+  RawPeer viewer(station.server.port(), 4096);
+  viewer.follow(wish());
+  std::uint64_t seq = 0;
+  const auto stuff = [&] {
+    const std::uint64_t dropped = station.server.counters().dropped;
+    while (station.server.counters().dropped == dropped) station.publish(++seq, 50'000);
+  };
+  // Much longer than what a reply may wait.
+  for (int i = 0; i < 10; ++i) {
+    stuff();
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  EXPECT_EQ(station.open_peers().size(), 1u);
+  viewer.send(ping(2));
+  EXPECT_TRUE(eventually([&] { return station.open_peers().empty(); }));
+}
+
 TEST(Streams, OthersKeysAreOthersFrames) {
   FakeStation station;
   RawPeer peer(station.server.port());
