@@ -1,5 +1,6 @@
 #include "server/tracker/fastrak/decoder.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "server/tracker/fastrak/reply.h"
@@ -61,8 +62,11 @@ std::size_t FastrakDecoder::examine_data(std::span<const std::uint8_t> bytes, bo
 }
 
 bool FastrakDecoder::begins_record(std::span<const std::uint8_t> bytes) const {
-  if (!bytes.empty() && bytes[0] != '0')
+  // No further than the header: what a reply turns out to be later must not matter to the record before it.
+  bytes = bytes.first(std::min(bytes.size(), kHeader));
+  if (!bytes.empty() && bytes[0] != '0') {
     return examine_text_reply(bytes, format_.stations).state != TextReply::State::none;
+  }
   if (bytes.size() > 1 && !(bytes[1] >= '1' && bytes[1] <= '0' + format_.stations)) return false;
   return bytes.size() <= 2 || bytes[2] == ' ' || is_letter(bytes[2]);
 }

@@ -152,6 +152,24 @@ TEST(FastrakDecoder, CutAnywhereTheSameComesOut) {
   }
 }
 
+// Found by fuzzing: out of step, a record was believed or not by how much of a broken reply behind it had come.
+TEST(FastrakDecoder, ABrokenReplyFarBehindMakesNoDifference) {
+  Bytes stream{0x81};
+  const Bytes record = golden("posed_list"), complaint = golden("undefined_command");
+  stream.insert(stream.end(), record.begin(), record.end());
+  stream.insert(stream.end(), complaint.begin(), complaint.end() - 2);
+  stream.push_back(0x84);
+  FastrakDecoder whole = decoder();
+  const std::size_t frames = whole.feed(stream, 1).frames.size();
+  EXPECT_EQ(frames, 1u);
+  for (std::size_t cut = 0; cut <= stream.size(); ++cut) {
+    FastrakDecoder d = decoder();
+    const std::size_t first = d.feed(std::span(stream).first(cut), 1).frames.size();
+    EXPECT_EQ(first + d.feed(std::span(stream).subspan(cut), 2).frames.size(), frames) << cut;
+    EXPECT_EQ(d.bad_bytes(), whole.bad_bytes()) << cut;
+  }
+}
+
 TEST(FastrakDecoder, NoRecordIsMadeOfBrokenOnes) {
   const Bytes good = golden("posed_list");
   for (std::size_t at = 0; at < good.size(); ++at) {
