@@ -190,7 +190,7 @@ void Connection::update() {
 bool Connection::sniff() {
   if (sniffed_ || !hub_.options.tls) return true;
   const int first = wire_.first_byte();
-  if (first < 0) return false;
+  if (first == Wire::kNothingYet) return false;
   sniffed_ = true;
   if (first != kTlsHandshake) return true;
   wire_.encrypt(*hub_.options.tls);
@@ -199,12 +199,12 @@ bool Connection::sniff() {
 }
 
 void Connection::on_readable() {
-  sniff();
+  if (!sniff()) return update();  // what comes the next moment may be TLS
   refill(hub_.clock.now());
   std::vector<char>& scratch = hub_.scratch;
   for (int i = 0; i < kReadsInARow; ++i) {
     const long got = wire_.receive(scratch.data(), scratch.size());
-    if (got < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) break;
+    if (got < 0 && (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR)) break;
     if (got == 0) {
       on_end();
       break;

@@ -4,13 +4,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstring>
 
 namespace posed::net {
 
 int Wire::first_byte() const {
   unsigned char byte = 0;
-  return ::recv(socket_, &byte, 1, MSG_PEEK | MSG_DONTWAIT) == 1 ? byte : -1;
+  const auto got = ::recv(socket_, &byte, 1, MSG_PEEK | MSG_DONTWAIT);
+  if (got == 1) return byte;
+  return got < 0 && (errno == EAGAIN || errno == EINTR) ? kNothingYet : kNothingEver;
 }
 
 long Wire::receive(char* data, std::size_t size) {

@@ -17,7 +17,8 @@ class Wire {
   // The peer has begun with the first byte of TLS, which is still to be read.
   void encrypt(const TlsContext& context) { tls_ = std::make_unique<TlsStream>(context, socket_); }
   bool encrypted() const { return tls_ != nullptr; }
-  // What the peer sends first, unread; -1: nothing yet.
+  // What the peer sends first, which stays unread.
+  static constexpr int kNothingYet = -1, kNothingEver = -2;
   int first_byte() const;
 
   // As recv and sendmsg: -1 with errno, 0 at the end. What was not taken comes again, in the same parts.
