@@ -126,7 +126,7 @@ TEST(Program, WhatIsWrongAtTheStartIsOneClearLine) {
   const test::TemporaryFolder data;
   const std::vector<std::pair<std::vector<std::string>, std::string>> mistakes = {
       {{"--tracker", "wand"}, "wand"},
-      {{"--tracker", "viper"}, "viper"},
+      {{"--tracker", "isotrak"}, "isotrak"},
       {{"--tracker", "simulated", "--tracker", "simulated"}, "two trackers"},
       {{"--scene.template", "paper/siting"}, "paper/sitting"},
       {{"--data", "/proc/nothing/here"}, "--data"},
