@@ -129,6 +129,16 @@ void describe(V& v, GoalListResult& m) {
   v.required("goals", m.goals);
 }
 template <class V>
+void describe(V& v, ObjectResult& m) {
+  v.required("id", m.object.id);
+  describe_object(v, m.object);
+  v.required("entity_revision", m.entity_revision);
+}
+template <class V>
+void describe(V& v, ObjectListResult& m) {
+  v.required("objects", m.objects);
+}
+template <class V>
 void describe(V& v, BindingResult& m) {
   v.required("id", m.binding.id);
   describe_binding(v, m.binding);

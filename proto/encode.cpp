@@ -97,6 +97,7 @@ Result<SceneDocument> decode_scene(std::string_view text) {
   if (!scene) return scene;
   for (auto& [id, figure] : scene->figures) figure.id = id;
   for (auto& [id, goal] : scene->goals) goal.id = id;
+  for (auto& [id, object] : scene->objects) object.id = id;
   for (auto& [id, binding] : scene->bindings) binding.id = id;
   return scene;
 }
@@ -137,6 +138,8 @@ POSED_RESULT(FigureResult)
 POSED_RESULT(FigureListResult)
 POSED_RESULT(GoalResult)
 POSED_RESULT(GoalListResult)
+POSED_RESULT(ObjectResult)
+POSED_RESULT(ObjectListResult)
 POSED_RESULT(BindingResult)
 POSED_RESULT(BindingListResult)
 POSED_RESULT(JointResult)

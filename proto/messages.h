@@ -71,6 +71,17 @@ struct GoalClear {
   std::string figure;  // empty: of all figures
 };
 
+struct ObjectSet {
+  ObjectEdit edit;
+};
+struct ObjectGet {
+  std::string id;
+};
+struct ObjectList {};
+struct ObjectRemove {
+  std::string id;
+};
+
 struct BindingSet {
   BindingEdit edit;
 };
@@ -190,11 +201,12 @@ struct StreamAck {
   std::uint64_t seq = 0;
 };
 
-using Params = std::variant<SessionHello, SessionPing, SessionStatus, SessionList, FigureSet, FigureGet, FigureList,
-                            FigureRemove, FigurePin, GoalSet, GoalGet, GoalList, GoalRemove, GoalClear, BindingSet,
-                            BindingGet, BindingList, BindingRemove, JointSet, JointGet, PoseGet, PoseSet, PoseReset,
-                            PoseMirror, SolverGet, SolverSet, Solve, SolveBatch, SceneGet, SceneNew, SceneList,
-                            SceneSave, SceneOpen, TrackerList, StreamSubscribe, StreamUnsubscribe, StreamAck>;
+using Params =
+    std::variant<SessionHello, SessionPing, SessionStatus, SessionList, FigureSet, FigureGet, FigureList, FigureRemove,
+                 FigurePin, GoalSet, GoalGet, GoalList, GoalRemove, GoalClear, ObjectSet, ObjectGet, ObjectList,
+                 ObjectRemove, BindingSet, BindingGet, BindingList, BindingRemove, JointSet, JointGet, PoseGet, PoseSet,
+                 PoseReset, PoseMirror, SolverGet, SolverSet, Solve, SolveBatch, SceneGet, SceneNew, SceneList,
+                 SceneSave, SceneOpen, TrackerList, StreamSubscribe, StreamUnsubscribe, StreamAck>;
 
 struct Request {
   std::string id;                            // JSON text of the id; empty: a notification, which gets no reply
@@ -283,6 +295,13 @@ struct GoalResult {
 };
 struct GoalListResult {
   std::vector<GoalResult> goals;
+};
+struct ObjectResult {
+  Object object;
+  std::uint64_t entity_revision = 0;
+};
+struct ObjectListResult {
+  std::vector<ObjectResult> objects;
 };
 struct BindingResult {
   Binding binding;

@@ -45,6 +45,10 @@ constexpr std::array kMethods{
     method<GoalList>("goal.list"),
     method<GoalRemove>("goal.remove", kEdits),
     method<GoalClear>("goal.clear"),
+    method<ObjectSet>("object.set", kEdits),
+    method<ObjectGet>("object.get"),
+    method<ObjectList>("object.list"),
+    method<ObjectRemove>("object.remove", kEdits),
     method<BindingSet>("binding.set", kEdits),
     method<BindingGet>("binding.get"),
     method<BindingList>("binding.list"),
@@ -72,10 +76,9 @@ constexpr std::array kMethods{
 static_assert(kMethods.size() == std::variant_size_v<Params>);
 
 constexpr const char* kReserved[] = {
-    "scene.remove", "object.set",      "object.get",        "object.list",   "object.remove",
-    "camera.set",   "camera.get",      "camera.list",       "camera.remove", "goal.grab",
-    "goal.release", "edit.apply",      "edit.undo",         "edit.redo",     "edit.history",
-    "tracker.grab", "tracker.release", "tracker.configure", "tracker.align", "tracker.reset",
+    "scene.remove",    "camera.set",        "camera.get",    "camera.list",   "camera.remove", "goal.grab",
+    "goal.release",    "edit.apply",        "edit.undo",     "edit.redo",     "edit.history",  "tracker.grab",
+    "tracker.release", "tracker.configure", "tracker.align", "tracker.reset",
 };
 
 }  // namespace

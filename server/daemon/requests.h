@@ -32,6 +32,10 @@ class Requests {
   void on(const proto::GoalList&, Responder);
   void on(const proto::GoalRemove&, Responder);
   void on(const proto::GoalClear&, Responder);
+  void on(const proto::ObjectSet&, Responder);
+  void on(const proto::ObjectGet&, Responder);
+  void on(const proto::ObjectList&, Responder);
+  void on(const proto::ObjectRemove&, Responder);
   void on(const proto::BindingSet&, Responder);
   void on(const proto::BindingGet&, Responder);
   void on(const proto::BindingList&, Responder);

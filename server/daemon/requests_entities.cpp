@@ -1,4 +1,4 @@
-// Figures, goals and bindings.
+// Figures, goals, objects and bindings.
 #include "common/names.h"
 #include "server/daemon/requests.h"
 
@@ -16,6 +16,9 @@ auto* find(const Map& map, const std::string& id, const char* what, Responder& r
 
 proto::GoalResult message(const SceneGoal& goal) {
   return {goal.goal, goal.revision};
+}
+proto::ObjectResult message(const SceneObject& object) {
+  return {object.object, object.revision};
 }
 proto::BindingResult message(const SceneBinding& binding) {
   return {binding.binding, binding.revision};
@@ -102,6 +105,25 @@ void Requests::on(const proto::GoalClear& m, Responder responder) {
   const int removed = p_.scene.clear_goals(m.figure);
   responder.result(proto::ClearResult{removed, p_.scene.revision()});
   if (removed > 0) p_.edited(connection_);
+}
+
+void Requests::on(const proto::ObjectSet& m, Responder responder) {
+  answer(p_.scene.set_object(m.edit, if_revision_), responder);
+}
+
+void Requests::on(const proto::ObjectGet& m, Responder responder) {
+  if (const SceneObject* object = find(p_.scene.objects(), m.id, "object", responder))
+    responder.result(message(*object));
+}
+
+void Requests::on(const proto::ObjectList&, Responder responder) {
+  proto::ObjectListResult result;
+  for (const auto& [id, object] : p_.scene.objects()) result.objects.push_back(message(object));
+  responder.result(result);
+}
+
+void Requests::on(const proto::ObjectRemove& m, Responder responder) {
+  answer(p_.scene.remove_object(m.id, if_revision_), responder);
 }
 
 void Requests::on(const proto::BindingSet& m, Responder responder) {

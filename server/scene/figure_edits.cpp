@@ -80,7 +80,8 @@ Result<Edited> Scene::set_figure(FigureEntry entry, IfRevision if_revision) {
                    "/id", "remove the goal first"};
     }
     again->live = goal.live;
-    again->base_live = goal.base_live;
+    again->world_from_base = goal.world_from_base;
+    again->base_moves = goal.base_moves;
     again->revision = goal.revision;
     goals.emplace(goal_id, std::move(*again));
   }

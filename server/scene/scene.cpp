@@ -18,6 +18,7 @@ SceneDocument Scene::document() const {
     document.figures.emplace(id, std::move(entry));
   }
   for (const auto& [id, goal] : goals_) document.goals.emplace(id, goal.goal);
+  for (const auto& [id, object] : objects_) document.objects.emplace(id, object.object);
   for (const auto& [id, binding] : bindings_) document.bindings.emplace(id, binding.binding);
   return document;
 }
@@ -31,10 +32,17 @@ Status Scene::load(const SceneDocument& document) {
     if (!figure) return below("/figures/" + token(id), figure.error());
     next.figures_.emplace(id, std::move(*figure));
   }
+  for (const auto& [id, entry] : document.objects) {
+    Object named = entry;
+    named.id = id;
+    Result<SceneObject> object = check_id(id) ? make_object(std::move(named)) : check_id(id).error();
+    if (!object) return below("/objects/" + token(id), object.error());
+    next.objects_.emplace(id, std::move(*object));
+  }
   for (const auto& [id, entry] : document.goals) {
     Goal named = entry;
     named.id = id;
-    Result<SceneGoal> goal = check_id(id) ? make_goal(std::move(named), next.figures_) : check_id(id).error();
+    Result<SceneGoal> goal = check_id(id) ? next.make_goal(std::move(named), next.figures_) : check_id(id).error();
     if (!goal) return below("/goals/" + token(id), goal.error());
     next.goals_.emplace(id, std::move(*goal));
   }
@@ -83,58 +91,14 @@ int Scene::clear_goals(const std::string& figure) {
   return removed;
 }
 
-// The goal stays where the sensor left it: letting go of a thing does not throw it back.
-void Scene::let_go(SceneGoal& goal) {
-  if (!goal.live) return;
-  if (Vec3* position = position_of(goal.goal.payload)) *position = *goal.live;
-  if (auto* spring = std::get_if<PositionSpring>(&goal.spring)) spring->position = *goal.live;
-  if (auto* spring = std::get_if<PoseSpring>(&goal.spring)) spring->position = *goal.live;
-  goal.live.reset();
-  ++goal.revision;
-}
-
 void Scene::drop_goal(const std::string& id) {
-  std::erase_if(bindings_, [&](const auto& entry) { return entry.second.binding.goal == id; });
+  std::erase_if(bindings_, [&](const auto& entry) { return entry.second.binding.to.goal == id; });
   goals_.erase(id);
 }
 
 void Scene::settle(const std::string& figure, const std::vector<double>& q) {
   const auto found = figures_.find(figure);
   if (found != figures_.end()) std::copy(q.begin(), q.end(), found->second.q.begin());
-}
-
-bool Scene::follow(const Frame& frame) {
-  bool moved = false;
-  for (auto& [id, goal] : goals_) {
-    if (goal.base_sensor.station == 0 || goal.base_sensor.device != frame.device) continue;
-    for (const Sample& sample : frame.samples) {
-      if (sample.station != goal.base_sensor.station) continue;
-      moved = moved || !goal.base_live || goal.base_live->position != sample.position ||
-              goal.base_live->rotation != sample.rotation;
-      goal.base_live = Transform{sample.position, sample.rotation};
-    }
-  }
-  for (auto& [id, b] : bindings_) {
-    if (b.sensor.device != frame.device) continue;
-    for (const Sample& sample : frame.samples) {
-      if (sample.station != b.sensor.station) continue;
-      SceneGoal& goal = goals_.find(b.binding.goal)->second;
-      Vec3 wanted = sample.position * b.binding.scale;
-      if (b.binding.mode == Binding::Mode::relative) {
-        if (!b.anchor) b.anchor = SceneBinding::Anchor{sample.position, goal.target()};
-        wanted = b.anchor->target + b.binding.scale * (sample.position - b.anchor->sensor);
-      }
-      const Vec3* placed = position_of(goal.goal.payload);
-      if (!placed) continue;
-      Vec3 target = *placed;
-      if (b.binding.axes.x) target.x = wanted.x;
-      if (b.binding.axes.y) target.y = wanted.y;
-      if (b.binding.axes.z) target.z = wanted.z;
-      moved = moved || !goal.live || *goal.live != target;
-      goal.live = target;
-    }
-  }
-  return moved;
 }
 
 }  // namespace posed

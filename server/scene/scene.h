@@ -45,8 +45,9 @@ struct SceneGoal {
   int base_segment = -1;   // relative to a segment: which, of the figure goal.relative_to.figure
   SensorName base_sensor;  // relative to a sensor
   // What sensors say; no part of the document.
-  std::optional<Vec3> live;            // where a bound sensor has the goal's position, in the world
-  std::optional<Transform> base_live;  // world_from_base, of a goal relative to a sensor that has been heard
+  std::optional<Vec3> live;                  // where a bound sensor has the goal's position, in the world
+  std::optional<Transform> world_from_base;  // relative to an object, or to a sensor that has been heard
+  bool base_moves = false;                   // sensors move the base
   Revision revision = 0;
 
   // Of position and pose goals.
@@ -54,14 +55,22 @@ struct SceneGoal {
     const Vec3* position = position_of(goal.payload);
     return live ? *live : position ? *position : kZero;
   }
-  bool follows_sensors() const { return live || base_live; }
+  bool follows_sensors() const { return live || base_moves; }
+};
+
+struct SceneObject {
+  Object object;                  // its rotation has unit length
+  std::optional<Transform> live;  // where a bound sensor has it; no part of the document
+  Revision revision = 0;
+
+  const Transform& world_from_object() const { return live ? *live : object.world_from_object; }
 };
 
 struct SceneBinding {
   Binding binding;
   SensorName sensor;
   struct Anchor {
-    Vec3 sensor, target;
+    Transform sensor, target;
   };
   std::optional<Anchor> anchor;  // relative mode: where both stood at the first sample
   Revision revision = 0;
@@ -76,6 +85,7 @@ class Scene {
   Revision revision() const { return revision_; }
   const std::map<std::string, SceneFigure>& figures() const { return figures_; }
   const std::map<std::string, SceneGoal>& goals() const { return goals_; }
+  const std::map<std::string, SceneObject>& objects() const { return objects_; }
   const std::map<std::string, SceneBinding>& bindings() const { return bindings_; }
 
   SceneDocument document() const;
@@ -88,9 +98,12 @@ class Scene {
   // The figure that was there hands on its pose, goals and pins; the entry's own pins are used for a new figure only.
   Result<Edited> set_figure(FigureEntry entry, IfRevision if_revision);
   Result<Edited> set_goal(const GoalEdit& edit, IfRevision if_revision);
+  Result<Edited> set_object(const ObjectEdit& edit, IfRevision if_revision);
   Result<Edited> set_binding(const BindingEdit& edit, IfRevision if_revision);
   Result<Edited> remove_figure(const std::string& id, IfRevision if_revision);  // and goals of it or relative to it
   Result<Edited> remove_goal(const std::string& id, IfRevision if_revision);    // and what is bound to it
+  // Refused while goals are relative to it ("in_use"); what is bound to it goes with it.
+  Result<Edited> remove_object(const std::string& id, IfRevision if_revision);
   Result<Edited> remove_binding(const std::string& id, IfRevision if_revision);
   int clear_goals(const std::string& figure);  // of all figures where empty; counts one revision
   // A pose set by hand. q is checked.
@@ -114,15 +127,21 @@ class Scene {
   Result<SceneFigure> make_figure(FigureEntry entry) const;
   static Status complete_pins(SceneFigure& figure);
   Result<SceneGoal> make_goal(Goal goal, const std::map<std::string, SceneFigure>& figures) const;
+  static Result<SceneObject> make_object(Object object);
   Result<SceneBinding> make_binding(Binding binding) const;
   Result<std::string> default_id(const GoalEdit& edit) const;  // FIGURE.SEGMENT.KIND
-  static Status check_bindable(const SceneGoal& goal);
-  static void let_go(SceneGoal& goal);
+  static Status check_bindable(const SceneGoal& goal, const Axes& axes);
+  Status check_target(const BindingTarget& to, const Axes& axes) const;
+  void let_go(const BindingTarget& target);
+  bool place_target(const BindingTarget& to, const Axes& axes, const Transform& wanted);
+  Transform target_of(const BindingTarget& to) const;
+  bool carry(const SceneObject& object);
   void drop_goal(const std::string& id);
 
   Revision revision_ = 0;
   std::map<std::string, SceneFigure> figures_;
   std::map<std::string, SceneGoal> goals_;
+  std::map<std::string, SceneObject> objects_;
   std::map<std::string, SceneBinding> bindings_;
 };
 

@@ -112,7 +112,7 @@ TEST(Daemon, ASensorBoundToAGoalMovesTheFigureWithNoClientBetween) {
   ASSERT_TRUE(edited);
   proto::BindingSet bind;
   bind.edit.sensor = "simulated:1";
-  bind.edit.goal = edited->id;
+  bind.edit.to = BindingTarget{edited->id, ""};
   const auto bound = client.call<proto::EditResult>(bind);
   ASSERT_TRUE(bound) << bound.error().message;
   const auto revision = client.call<proto::StatusResult>(proto::SessionStatus{})->revision;
@@ -138,7 +138,6 @@ TEST(Daemon, WhatIsReservedIsRefusedNotAliased) {
   const RunningDaemon daemon;
   auto client = daemon.connect();
   const std::pair<const char*, const char*> reserved[] = {
-      {"goal.set", R"({"at":"head","position":[0,0,1],"relative_to":{"object":"chair"}})"},
       {"binding.set", R"({"sensor":"simulated:1","to":{"camera":"main"}})"},
       {"edit.undo", "{}"},
       {"stream.subscribe", R"({"stream":"pose","encoding":"cbor"})"},

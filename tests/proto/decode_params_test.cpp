@@ -88,8 +88,6 @@ TEST(DecodeParams, WhatIsReservedIsNotAvailable) {
     expect_error(call("goal.set", std::string("{\"") + field + "\":" + value + "}"), "not_available",
                  std::string("/params/") + field);
   }
-  expect_error(call("goal.set", R"({"relative_to":{"object":"chair"}})"), "not_available",
-               "/params/relative_to/object");
   expect_error(call("binding.set", R"({"to":{"joint":"waist"}})"), "not_available", "/params/to/joint");
   expect_error(call("binding.set", R"({"axes":["x","rx"]})"), "not_available", "/params/axes");
   expect_error(call("binding.set", R"({"clutch":{"button":0}})"), "not_available", "/params/clutch");
@@ -200,6 +198,7 @@ TEST(DecodeParams, PayloadsAreStrict) {
   refuse(R"({"relative_to":"moon"})", "invalid_params", "/params/relative_to");
   refuse(R"({"relative_to":{}})", "missing_field", "/params/relative_to/segment");
   refuse(R"({"relative_to":{"sensor":"liberty:1","segment":"head"}})", "invalid_params", "/params/relative_to");
+  refuse(R"({"relative_to":{"object":"chair","segment":"head"}})", "invalid_params", "/params/relative_to");
 }
 
 TEST(DecodeParams, APinNamesWhatItHolds) {
