@@ -7,6 +7,17 @@
 
 namespace posed::proto {
 
+// An edit among several; in methods.cpp.
+void read(ReadContext& c, const Json& j, Edit& out);
+Json write(const Edit& edit);
+
+struct RawJson {
+  Json json;
+};
+inline void read(ReadContext&, const Json& j, RawJson& out) {
+  out.json = j;
+}
+
 template <class M, class... Messages>
 concept OneOf = (std::is_same_v<M, Messages> || ...);
 
@@ -228,13 +239,15 @@ void describe(V& v, SessionHello& m) {
   v.optional("client", m.client);
   v.optional("user", m.user);
   v.reserved("token");
-  v.reserved("resume");
+  v.optional("resume", m.resume);
+  if (m.resume.size() > kMaxResumeBytes)
+    v.fail_at("resume", "out_of_range", "the key is too long", "say what session.hello has replied, or leave it out");
 }
 
 // What has no fields.
 template <class V, class M>
 requires OneOf<M, SessionPing, SessionStatus, SessionList, FigureList, GoalList, ObjectList, BindingList, SolverGet,
-               SceneGet, SceneList, TrackerList, EmptyResult>
+               SceneGet, SceneList, TrackerList, EditRedo, EmptyResult>
 void describe(V&, M&) {}
 
 template <class V>
@@ -397,6 +410,30 @@ template <class V, class M>
 requires OneOf<M, SceneSave, SceneOpen>
 void describe(V& v, M& m) {
   v.required("name", m.name);
+}
+
+template <class V, class M>
+requires OneOf<M, GoalGrab, GoalRelease>
+void describe(V& v, M& m) {
+  v.required("id", m.id);
+  if (V::kReads || m.force) v.optional("force", m.force);
+}
+
+template <class V>
+void describe(V& v, EditApply& m) {
+  v.required("edits", m.edits);
+  if (m.edits.size() > kMaxEdits) v.fail_at("edits", "too_large", "there are too many edits", "at most 1000");
+  v.optional("label", m.label);
+}
+template <class V>
+void describe(V& v, EditUndo& m) {
+  if (V::kReads || m.step > 0) v.optional("step", m.step);
+}
+template <class V>
+void describe(V& v, EditHistory& m) {
+  v.optional("limit", m.limit);
+  if (m.limit < 1 || m.limit > static_cast<int>(kMaxHistory))
+    v.fail_at("limit", "out_of_range", "the number of steps is out of range", "1 to 1000");
 }
 
 template <class V>

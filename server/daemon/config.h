@@ -19,6 +19,7 @@ struct Config {
   std::filesystem::path viewer;
   std::filesystem::path scenes;
   std::string scene_template = "standing";
+  bool begin_anew = false;  // with it, whatever scene the store has
   LogLevel log = LogLevel::info;
   std::string solve_method = "springs";  // or "reach_tree"
   double solve_deadline_ms = 20.0;       // a solve that takes longer ends with the best pose so far

@@ -71,19 +71,34 @@ void Publisher::subscribe(net::ConnectionId connection, const proto::StreamSubsc
   ++state.subscribers;
   followers_[connection][static_cast<std::size_t>(wish.stream)] = channel;
 
-  net::SharedLine present = state.last;
-  if (wish.stream == proto::Stream::pose) {
-    present = encode_pose(channel, ++state.seq, pose_t_ns_);
-  } else if (wish.stream == proto::Stream::scene) {
+  if (wish.stream == proto::Stream::scene) {
     if (made) {
       scene_text_ = scene_text();
-      scene_revision_ = scene_.revision();
+      scene_revision_ = sent_revision_ = scene_.revision();
     }
-    present = share(proto::encode_scene_snapshot(++state.seq, scene_revision_, scene_text_));
+    return subscribe_to_scene(connection, wish);
   }
+  net::SharedLine present = state.last;
+  if (wish.stream == proto::Stream::pose) present = encode_pose(channel, ++state.seq, pose_t_ns_);
   server_.subscribe(connection,
                     {wish.stream, state.key, wish.max_rate_hz, wish.credit, wish.stream != proto::Stream::scene},
                     std::move(present), state.seq);
+}
+
+// From where the scene is now, when the disk has that: what is sent after it begins there.
+void Publisher::subscribe_to_scene(net::ConnectionId connection, const proto::StreamSubscribe& wish) {
+  journal_.when_stored([this, connection, wish, revision = scene_revision_, text = scene_text_](const Status& stored) {
+    const auto follower = followers_.find(connection);
+    if (follower == followers_.end()) return;
+    const auto& channel = follower->second[static_cast<std::size_t>(proto::Stream::scene)];
+    if (!channel) return;  // it has thought better of it
+    State& state = channels_.find(*channel)->second;
+    server_.subscribe(connection, {wish.stream, state.key, wish.max_rate_hz, wish.credit, false},
+                      share(stored ? proto::encode_scene_snapshot(state.seq + 1, revision, text)
+                                   : proto::encode_scene_snapshot(state.seq + 1, scene_revision_, scene_text_)),
+                      state.seq + 1);
+    ++state.seq;
+  });
 }
 
 void Publisher::drop(Channels::iterator channel) {
@@ -155,16 +170,33 @@ std::string Publisher::scene_text() const {
 }
 
 void Publisher::publish_scene(const std::string& by) {
+  const bool followed = std::any_of(channels_.begin(), channels_.end(),
+                                    [](const auto& entry) { return entry.first.stream == proto::Stream::scene; });
+  if (!followed) return;
+  std::string text = scene_text();
+  journal_.when_stored([this, from = scene_revision_, revision = scene_.revision(), by,
+                        patch = proto::diff(scene_text_, text)](const Status& stored) {
+    if (stored) send_patch(from, revision, by, patch);
+  });
+  scene_text_ = std::move(text);
+  scene_revision_ = scene_.revision();
+}
+
+void Publisher::send_patch(Revision from, Revision revision, const std::string& by, const std::string& patch) {
   for (auto& [channel, state] : channels_) {
     if (channel.stream != proto::Stream::scene) continue;
-    std::string text = scene_text();
     ++state.seq;
     server_.publish(channel.stream, state.key, state.seq,
-                    share(proto::encode_scene_patch(state.seq, scene_revision_, scene_.revision(), by,
-                                                    proto::diff(scene_text_, text))));
-    scene_text_ = std::move(text);
-    scene_revision_ = scene_.revision();
+                    share(proto::encode_scene_patch(state.seq, from, revision, by, patch)));
   }
+  sent_revision_ = revision;
+}
+
+void Publisher::scene_failed() {
+  scene_text_ = scene_text();
+  scene_revision_ = scene_.revision();
+  // Followers have seen nothing of it; their revision goes on all the same.
+  send_patch(sent_revision_, scene_revision_, "posed", "[]");
 }
 
 }  // namespace posed

@@ -95,8 +95,9 @@ Result<Edited> Scene::set_binding(const BindingEdit& edit, IfRevision if_revisio
     if (before->second.binding.to != made->binding.to) let_go(before->second.binding.to);
   }
   const Revision revision = made->revision;
+  keep_binding(id);
   bindings_.insert_or_assign(id, std::move(*made));
-  return Edited{id, ++revision_, revision};
+  return Edited{id, count(), revision};
 }
 
 Result<Edited> Scene::remove_binding(const std::string& id, IfRevision if_revision) {
@@ -104,8 +105,9 @@ Result<Edited> Scene::remove_binding(const std::string& id, IfRevision if_revisi
   if (found == bindings_.end()) return unknown("binding", id, keys(bindings_), "/id");
   if (const auto error = stale(bindings_, id, if_revision)) return *error;
   let_go(found->second.binding.to);
+  keep_binding(id);
   bindings_.erase(found);
-  return Edited{id, ++revision_, 0};
+  return Edited{id, count(), 0};
 }
 
 }  // namespace posed

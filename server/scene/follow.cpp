@@ -47,8 +47,7 @@ bool Scene::place_target(const BindingTarget& to, const Axes& axes, const Transf
 bool Scene::carry(const SceneObject& object) {
   bool any = false;
   for (auto& [id, goal] : goals_) {
-    if (goal.goal.relative_to.kind != GoalBase::Kind::object || goal.goal.relative_to.object != object.object.id)
-      continue;
+    if (!goal.rides_on(object.object.id)) continue;
     goal.world_from_base = object.world_from_object();
     goal.base_moves = object.live.has_value();
     any = true;
@@ -91,6 +90,7 @@ void Scene::let_go(const BindingTarget& target) {
   if (!target.object.empty()) {
     SceneObject& object = objects_.at(target.object);
     if (!object.live) return;
+    keep_object(target.object);
     object.object.world_from_object = *object.live;
     object.live.reset();
     ++object.revision;
@@ -99,6 +99,7 @@ void Scene::let_go(const BindingTarget& target) {
   }
   SceneGoal& goal = goals_.at(target.goal);
   if (!goal.live) return;
+  keep_goal(target.goal);
   if (Vec3* position = position_of(goal.goal.payload)) *position = *goal.live;
   if (auto* spring = std::get_if<PositionSpring>(&goal.spring)) spring->position = *goal.live;
   if (auto* spring = std::get_if<PoseSpring>(&goal.spring)) spring->position = *goal.live;

@@ -140,8 +140,9 @@ Result<Edited> Scene::set_goal(const GoalEdit& edit, IfRevision if_revision) {
     }
   }
   const Revision revision = made->revision;
+  keep_goal(id);
   goals_.insert_or_assign(id, std::move(*made));
-  return Edited{id, ++revision_, revision};
+  return Edited{id, count(), revision};
 }
 
 Result<std::string> Scene::default_id(const GoalEdit& edit) const {
@@ -165,7 +166,7 @@ Result<Edited> Scene::remove_goal(const std::string& id, IfRevision if_revision)
   if (!goals_.contains(id)) return unknown("goal", id, keys(goals_), "/id");
   if (const auto error = stale(goals_, id, if_revision)) return *error;
   drop_goal(id);
-  return Edited{id, ++revision_, 0};
+  return Edited{id, count(), 0};
 }
 
 }  // namespace posed

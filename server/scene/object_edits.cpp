@@ -62,26 +62,28 @@ Result<Edited> Scene::set_object(const ObjectEdit& edit, IfRevision if_revision)
     made->live = before->second.live;
   }
   const Revision revision = made->revision;
+  keep_object(edit.id);
   carry(objects_.insert_or_assign(edit.id, std::move(*made)).first->second);
-  return Edited{edit.id, ++revision_, revision};
+  return Edited{edit.id, count(), revision};
 }
 
 Result<Edited> Scene::remove_object(const std::string& id, IfRevision if_revision) {
   if (!objects_.contains(id)) return unknown("object", id, keys(objects_), "/id");
   if (const auto error = stale(objects_, id, if_revision)) return *error;
   std::string riders;
-  std::size_t count = 0;
+  std::size_t hanging = 0;
   for (const auto& [goal_id, goal] : goals_) {
-    if (goal.goal.relative_to.kind != GoalBase::Kind::object || goal.goal.relative_to.object != id) continue;
-    if (++count <= kMostNamed) riders += (riders.empty() ? "" : ", ") + goal_id;
+    if (!goal.rides_on(id)) continue;
+    if (++hanging <= kMostNamed) riders += (riders.empty() ? "" : ", ") + goal_id;
   }
-  if (count > kMostNamed) riders += " and " + std::to_string(count - kMostNamed) + " more";
-  if (count > 0)
+  if (hanging > kMostNamed) riders += " and " + std::to_string(hanging - kMostNamed) + " more";
+  if (hanging > 0)
     return Error{"in_use", "goals are relative to object " + id + ": " + riders, "/id",
                  "remove them or set their relative_to first"};
-  std::erase_if(bindings_, [&](const auto& entry) { return entry.second.binding.to.object == id; });
+  drop_bindings({"", id});
+  keep_object(id);
   objects_.erase(id);
-  return Edited{id, ++revision_, 0};
+  return Edited{id, count(), 0};
 }
 
 }  // namespace posed

@@ -53,9 +53,41 @@ Status Scene::load(const SceneDocument& document) {
     if (!binding) return below("/bindings/" + token(id), binding.error());
     next.bindings_.emplace(id, std::move(*binding));
   }
-  next.revision_ = revision_ + 1;
-  *this = std::move(next);
+  take_over(std::move(next));
   return Ok{};
+}
+
+// Revisions of entities whose ids stay go on.
+template <class Entity>
+void Scene::replace(std::map<std::string, Entity>& entities, std::map<std::string, Entity> next,
+                    std::map<std::string, ChangedEntity<Entity>> Change::*part) {
+  for (const auto& [id, entity] : entities) keep(part, entities, id);
+  for (auto& [id, entity] : next) {
+    keep(part, entities, id);
+    if (const auto before = entities.find(id); before != entities.end()) entity.revision = before->second.revision + 1;
+  }
+  entities = std::move(next);
+}
+
+void Scene::take_over(Scene next) {
+  replace(bindings_, std::move(next.bindings_), &Change::bindings);
+  replace(goals_, std::move(next.goals_), &Change::goals);
+  replace(objects_, std::move(next.objects_), &Change::objects);
+  replace(figures_, std::move(next.figures_), &Change::figures);
+  count();
+}
+
+void Scene::resume(Revision revision, const std::map<std::string, Revision>& revisions) {
+  revision_ = revision;
+  const auto put = [&revisions](auto& entities, const char* path) {
+    for (auto& [id, entity] : entities) {
+      if (const auto found = revisions.find(path + id); found != revisions.end()) entity.revision = found->second;
+    }
+  };
+  put(figures_, "/figures/");
+  put(objects_, "/objects/");
+  put(goals_, "/goals/");
+  put(bindings_, "/bindings/");
 }
 
 Result<const SceneFigure*> Scene::find_figure(const std::string& id) const {
@@ -87,12 +119,22 @@ int Scene::clear_goals(const std::string& figure) {
     drop_goal(id);
     ++removed;
   }
-  if (removed > 0) ++revision_;
+  if (removed > 0) count();
   return removed;
 }
 
+void Scene::drop_bindings(const BindingTarget& to) {
+  for (auto it = bindings_.begin(); it != bindings_.end();) {
+    const auto current = it++;
+    if (current->second.binding.to != to) continue;
+    keep_binding(current->first);
+    bindings_.erase(current);
+  }
+}
+
 void Scene::drop_goal(const std::string& id) {
-  std::erase_if(bindings_, [&](const auto& entry) { return entry.second.binding.to.goal == id; });
+  drop_bindings({id, ""});
+  keep_goal(id);
   goals_.erase(id);
 }
 

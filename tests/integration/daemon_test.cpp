@@ -139,7 +139,7 @@ TEST(Daemon, WhatIsReservedIsRefusedNotAliased) {
   auto client = daemon.connect();
   const std::pair<const char*, const char*> reserved[] = {
       {"binding.set", R"({"sensor":"simulated:1","to":{"camera":"main"}})"},
-      {"edit.undo", "{}"},
+      {"camera.list", "{}"},
       {"stream.subscribe", R"({"stream":"pose","encoding":"cbor"})"},
   };
   for (const auto& [method, params] : reserved) {
@@ -154,7 +154,8 @@ TEST(Daemon, TheMethodIsSpringsUntilAnotherIsChosen) {
   auto client = daemon.connect();
   EXPECT_EQ(client.call<proto::SolverResult>(proto::SolverGet{})->method, "springs");
   const auto hello = client.call<proto::HelloResult>(proto::SessionHello{});
-  EXPECT_EQ(hello->features, (std::vector<std::string>{"springs", "reach_tree", "solve"}));
+  EXPECT_EQ(hello->features,
+            (std::vector<std::string>{"springs", "reach_tree", "solve", "objects", "undo", "holds", "durable"}));
   const auto refused = client.call("solver.set", R"({"method":"spring"})");
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().path, "/params/method");

@@ -56,7 +56,16 @@ std::vector<Params> full_messages() {
   batch.start = Start{Start::Kind::current, {}};
   batch.problems = {{solve, {}, ""}, {{}, Error{"missing_field", "", "", ""}, R"({"goal":[]})"}};
   batch.progress = true;
-  return {SessionHello{1, {"posectl", "0.1.0"}, "ana"},
+  EditApply several;
+  several.edits.push_back({7, GoalSet{goal}});
+  several.edits.push_back({{}, GoalClear{"body"}});
+  several.label = "tidy up";
+  return {SessionHello{1, {"posectl", "0.1.0"}, "ana", "8c1f"},
+          GoalGrab{"g1", true},
+          GoalRelease{"g1", true},
+          several,
+          EditUndo{12},
+          EditHistory{7},
           figure,
           FigureGet{"body"},
           FigureRemove{"body"},
@@ -102,7 +111,7 @@ void expect_round_trip(const Params& message) {
 
 TEST(Requests, EveryMethodComesThrough) {
   const std::vector<Params> messages = every_message();
-  ASSERT_EQ(messages.size(), 41u);
+  ASSERT_EQ(messages.size(), 47u);
   for (const Params& message : messages) expect_round_trip(message);
 }
 
