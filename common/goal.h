@@ -101,9 +101,10 @@ Vec3* position_of(GoalPayload& payload);
 
 // The frame that the payload is in.
 struct GoalBase {
-  enum class Kind { world, segment, sensor } kind = Kind::world;
+  enum class Kind { world, segment, sensor, object } kind = Kind::world;
   std::string figure, segment;  // figure empty: the goal's own
   std::string sensor;           // "liberty:1"
+  std::string object{};
   bool operator==(const GoalBase&) const = default;
 };
 

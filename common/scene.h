@@ -9,6 +9,7 @@
 #include "common/binding.h"
 #include "common/figure.h"
 #include "common/goal.h"
+#include "common/object.h"
 
 namespace posed {
 
@@ -35,6 +36,7 @@ struct FigureEntry {
 struct SceneDocument {
   std::map<std::string, FigureEntry> figures;
   std::map<std::string, Goal> goals;
+  std::map<std::string, Object> objects;
   std::map<std::string, Binding> bindings;
 };
 

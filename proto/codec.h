@@ -18,6 +18,9 @@ Line decode_line(std::string_view text);
 // Replies, without the trailing newline. `id` is JSON text, as in Request.
 template <class ResultMessage>
 std::string encode_reply(const std::string& id, const ResultMessage& result);
+// The result alone, as in encode_reply_text.
+template <class ResultMessage>
+std::string encode_result(const ResultMessage& result);
 std::string encode_error(const std::string& id, const Error& error);
 // The same in parts, for an answer that is made on several threads: the text of each result, of them all, and the
 // reply.
@@ -47,6 +50,12 @@ std::string encode_cbor(std::string_view frame, Stream stream);
 std::string encode_scene(const SceneDocument& scene, int indent = -1);
 Result<SceneDocument> decode_scene(std::string_view text);
 std::string encode_figure(const FigureDocument& figure, int indent = -1);
+// Entities as a scene's document has them; of a figure without its q.
+std::string encode_entity(const FigureEntry& figure);
+std::string encode_entity(const Goal& goal);
+std::string encode_entity(const Object& object);
+std::string encode_entity(const Binding& binding);
+std::string encode_q(const std::vector<double>& q);
 Result<FigureDocument> decode_figure(std::string_view text);
 // The RFC 6902 patch that leads from one JSON text to another.
 std::string diff(std::string_view before, std::string_view after);

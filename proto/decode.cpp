@@ -59,21 +59,7 @@ Entry decode_request(Json& json) {
   context.path = "/params";
   Request request;
   request.id = id_text;
-  // What every method, or every edit, accepts is read here, so that no message repeats it.
-  if (expect_object(context, params)) {
-    Reader common(context, params);
-    common.reserved("scene", "\"main\"");
-    params.erase("scene");
-    if (method->edits) {
-      std::optional<std::uint64_t> if_revision;
-      common.optional("if_revision", if_revision);
-      common.reserved("gesture");
-      common.reserved("once");
-      for (const char* key : {"if_revision", "gesture", "once"}) params.erase(key);
-      request.if_revision = if_revision;
-    }
-  }
-  if (!context.error) request.params = method->read(context, params);
+  read_request(context, std::move(params), *method, request);
   if (context.error) return bad(answer_to, *context.error);
   return request;
 }

@@ -7,6 +7,17 @@
 
 namespace posed::proto {
 
+// An edit among several; in methods.cpp.
+void read(ReadContext& c, const Json& j, Edit& out);
+Json write(const Edit& edit);
+
+struct RawJson {
+  Json json;
+};
+inline void read(ReadContext&, const Json& j, RawJson& out) {
+  out.json = j;
+}
+
 template <class M, class... Messages>
 concept OneOf = (std::is_same_v<M, Messages> || ...);
 
@@ -141,22 +152,35 @@ void describe(V& v, Goal& m) {
   describe_goal(v, m);
 }
 
-struct GoalTarget {
-  std::string& goal;
-};
 template <class V>
-void describe(V& v, GoalTarget& m) {
+void describe_object(V& v, Object& m) {
+  v.required("position", m.world_from_object.position);
+  v.optional("quat_xyzw", m.world_from_object.rotation);
+  v.optional("shape", m.shapes);
+  v.optional("label", m.label);
+  v.verbatim("user", m.user);
+}
+template <class V>
+void describe(V& v, Object& m) {
+  describe_object(v, m);
+}
+
+template <class V>
+void describe(V& v, BindingTarget& m) {
   v.reserved("joint");
   v.reserved("camera");
-  v.reserved("object");
+  if (v.optional("object", m.object) && !m.object.empty()) {
+    if (v.has("goal")) v.fail("invalid_params", "a binding moves one thing", "leave goal or object out");
+    return;
+  }
   v.required("goal", m.goal);
 }
 
 template <class V>
 void describe_binding(V& v, Binding& m) {
   v.required("sensor", m.sensor);
-  GoalTarget to{m.goal};
-  v.required("to", to);
+  v.required("to", m.to);
+  if (V::kReads) m.axes = default_axes(m.to);
   v.optional("axes", m.axes);
   v.optional("mode", m.mode);
   v.optional("scale", m.scale);
@@ -197,8 +221,10 @@ void describe(V& v, SceneDocument& m) {
   if (format != "posed.scene/1") v.fail_at("format", "bad_scene", "the format is not known", "use \"posed.scene/1\"");
   v.required("figures", m.figures);
   v.required("goals", m.goals);
-  if constexpr (!V::kReads) v.constant("objects", Json::object());
-  v.reserved("objects", "{}");
+  if constexpr (V::kReads)
+    v.optional("objects", m.objects);
+  else
+    v.required("objects", m.objects);
   v.required("bindings", m.bindings);
   if constexpr (!V::kReads) v.constant("cameras", Json::object());
   v.reserved("cameras", "{}");
@@ -213,13 +239,15 @@ void describe(V& v, SessionHello& m) {
   v.optional("client", m.client);
   v.optional("user", m.user);
   v.optional("token", m.token);
-  v.reserved("resume");
+  v.optional("resume", m.resume);
+  if (m.resume.size() > kMaxResumeBytes)
+    v.fail_at("resume", "out_of_range", "the key is too long", "say what session.hello has replied, or leave it out");
 }
 
 // What has no fields.
 template <class V, class M>
-requires OneOf<M, SessionPing, SessionStatus, SessionList, FigureList, GoalList, BindingList, SolverGet, SceneGet,
-               SceneList, TrackerList, EmptyResult>
+requires OneOf<M, SessionPing, SessionStatus, SessionList, FigureList, GoalList, ObjectList, BindingList, SolverGet,
+               SceneGet, SceneList, TrackerList, EditRedo, EmptyResult>
 void describe(V&, M&) {}
 
 template <class V>
@@ -233,7 +261,7 @@ void describe(V& v, FigureSet& m) {
 }
 
 template <class V, class M>
-requires OneOf<M, FigureGet, FigureRemove, GoalGet, GoalRemove, BindingGet, BindingRemove>
+requires OneOf<M, FigureGet, FigureRemove, GoalGet, GoalRemove, ObjectGet, ObjectRemove, BindingGet, BindingRemove>
 void describe(V& v, M& m) {
   v.required("id", m.id);
 }
@@ -267,15 +295,20 @@ void describe(V& v, GoalClear& m) {
 }
 
 template <class V>
+void describe(V& v, ObjectSet& m) {
+  v.required("id", m.edit.id);
+  v.optional("position", m.edit.position);
+  v.optional("quat_xyzw", m.edit.rotation);
+  v.optional("shape", m.edit.shapes);
+  v.optional("label", m.edit.label);
+  v.verbatim("user", m.edit.user);
+}
+
+template <class V>
 void describe(V& v, BindingSet& m) {
   v.optional("id", m.edit.id);
   v.optional("sensor", m.edit.sensor);
-  std::string goal = m.edit.goal.value_or("");
-  GoalTarget to{goal};
-  const bool said = (V::kReads || m.edit.goal) && v.optional("to", to);
-  if constexpr (V::kReads) {
-    if (said) m.edit.goal = goal;
-  }
+  v.optional("to", m.edit.to);
   v.optional("axes", m.edit.axes);
   v.optional("mode", m.edit.mode);
   v.optional("scale", m.edit.scale);
@@ -377,6 +410,30 @@ template <class V, class M>
 requires OneOf<M, SceneSave, SceneOpen>
 void describe(V& v, M& m) {
   v.required("name", m.name);
+}
+
+template <class V, class M>
+requires OneOf<M, GoalGrab, GoalRelease>
+void describe(V& v, M& m) {
+  v.required("id", m.id);
+  if (V::kReads || m.force) v.optional("force", m.force);
+}
+
+template <class V>
+void describe(V& v, EditApply& m) {
+  v.required("edits", m.edits);
+  if (m.edits.size() > kMaxEdits) v.fail_at("edits", "too_large", "there are too many edits", "at most 1000");
+  v.optional("label", m.label);
+}
+template <class V>
+void describe(V& v, EditUndo& m) {
+  if (V::kReads || m.step > 0) v.optional("step", m.step);
+}
+template <class V>
+void describe(V& v, EditHistory& m) {
+  v.optional("limit", m.limit);
+  if (m.limit < 1 || m.limit > static_cast<int>(kMaxHistory))
+    v.fail_at("limit", "out_of_range", "the number of steps is out of range", "1 to 1000");
 }
 
 template <class V>

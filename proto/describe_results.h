@@ -21,6 +21,7 @@ void describe(V& v, HelloResult& m) {
   v.required("protocol", protocol);
   v.required("daemon", m.daemon);
   v.required("session", m.session);
+  v.optional("resume", m.resume);
   v.required("boot", m.boot);
   v.required("role", m.role);
   v.required("features", m.features);
@@ -73,6 +74,48 @@ void describe(V& v, EditResult& m) {
   v.required("entity_revision", m.entity_revision);
 }
 template <class V>
+void describe(V& v, AppliedResult& m) {
+  if (V::kReads || m.removed) v.optional("removed", m.removed);
+  if (m.removed)
+    v.required("revision", m.revision);
+  else
+    describe(v, static_cast<EditResult&>(m));
+}
+template <class V>
+void describe(V& v, ApplyResult& m) {
+  v.required("revision", m.revision);
+  v.required("results", m.results);
+}
+template <class V>
+void describe(V& v, StepResult& m) {
+  v.required("step", m.step);
+  v.required("revision", m.revision);
+  v.required("entities", m.entities);
+}
+template <class V>
+void describe(V& v, HistoryStep& m) {
+  v.required("step", m.step);
+  v.required("revision", m.revision);
+  v.required("t_ns", m.t_ns);
+  v.required("user", m.user);
+  v.required("session", m.session);
+  v.required("method", m.method);
+  v.optional("label", m.label);
+  v.optional("gesture", m.gesture);
+  v.required("entities", m.entities);
+  v.required("mine", m.mine);
+  v.required("undone", m.undone);
+}
+template <class V>
+void describe(V& v, HistoryResult& m) {
+  v.required("steps", m.steps);
+}
+template <class V>
+void describe(V& v, GrabResult& m) {
+  v.required("id", m.id);
+  v.required("idle_ms", m.idle_ms);
+}
+template <class V>
 void describe(V& v, ClearResult& m) {
   v.required("removed", m.removed);
   v.required("revision", m.revision);
@@ -123,10 +166,21 @@ void describe(V& v, GoalResult& m) {
   v.required("id", m.goal.id);
   describe_goal(v, m.goal);
   v.required("entity_revision", m.entity_revision);
+  v.optional("held_by", m.held_by);
 }
 template <class V>
 void describe(V& v, GoalListResult& m) {
   v.required("goals", m.goals);
+}
+template <class V>
+void describe(V& v, ObjectResult& m) {
+  v.required("id", m.object.id);
+  describe_object(v, m.object);
+  v.required("entity_revision", m.entity_revision);
+}
+template <class V>
+void describe(V& v, ObjectListResult& m) {
+  v.required("objects", m.objects);
 }
 template <class V>
 void describe(V& v, BindingResult& m) {

@@ -39,7 +39,12 @@ Result<Document> decode_document(std::string_view text, const char* code) {
 
 template <class ResultMessage>
 std::string encode_reply(const std::string& id, const ResultMessage& result) {
-  return encode_reply_text(id, dump(write(result)));
+  return encode_reply_text(id, encode_result(result));
+}
+
+template <class ResultMessage>
+std::string encode_result(const ResultMessage& result) {
+  return dump(write(result));
 }
 
 std::string encode_reply_text(const std::string& id, std::string_view result) {
@@ -92,11 +97,30 @@ std::string encode_figure(const FigureDocument& figure, int indent) {
   return dump(write(figure), indent);
 }
 
+std::string encode_entity(const FigureEntry& figure) {
+  Json json = write(figure);
+  json.erase("q");
+  return dump(json);
+}
+std::string encode_entity(const Goal& goal) {
+  return dump(write(goal));
+}
+std::string encode_entity(const Object& object) {
+  return dump(write(object));
+}
+std::string encode_entity(const Binding& binding) {
+  return dump(write(binding));
+}
+std::string encode_q(const std::vector<double>& q) {
+  return dump(write(q));
+}
+
 Result<SceneDocument> decode_scene(std::string_view text) {
   Result<SceneDocument> scene = decode_document<SceneDocument>(text, "bad_scene");
   if (!scene) return scene;
   for (auto& [id, figure] : scene->figures) figure.id = id;
   for (auto& [id, goal] : scene->goals) goal.id = id;
+  for (auto& [id, object] : scene->objects) object.id = id;
   for (auto& [id, binding] : scene->bindings) binding.id = id;
   return scene;
 }
@@ -124,19 +148,27 @@ std::string_view name_of(SolveStatus status) {
   return word(status);
 }
 
-#define POSED_RESULT(Type) template std::string encode_reply(const std::string&, const Type&);
+#define POSED_RESULT(Type)                                            \
+  template std::string encode_reply(const std::string&, const Type&); \
+  template std::string encode_result(const Type&);
 POSED_RESULT(HelloResult)
 POSED_RESULT(PingResult)
 POSED_RESULT(StatusResult)
 POSED_RESULT(SessionListResult)
 POSED_RESULT(EditResult)
 POSED_RESULT(ClearResult)
+POSED_RESULT(ApplyResult)
+POSED_RESULT(StepResult)
+POSED_RESULT(HistoryResult)
+POSED_RESULT(GrabResult)
 POSED_RESULT(RevisionResult)
 POSED_RESULT(EmptyResult)
 POSED_RESULT(FigureResult)
 POSED_RESULT(FigureListResult)
 POSED_RESULT(GoalResult)
 POSED_RESULT(GoalListResult)
+POSED_RESULT(ObjectResult)
+POSED_RESULT(ObjectListResult)
 POSED_RESULT(BindingResult)
 POSED_RESULT(BindingListResult)
 POSED_RESULT(JointResult)

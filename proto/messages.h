@@ -36,6 +36,7 @@ struct SessionHello {
   Software client;
   std::string user;
   std::string token = {};
+  std::string resume;  // of an earlier session, to be the same editor again
 };
 struct SessionPing {};
 struct SessionStatus {};
@@ -73,6 +74,26 @@ struct GoalRemove {
 };
 struct GoalClear {
   std::string figure;  // empty: of all figures
+};
+
+struct ObjectSet {
+  ObjectEdit edit;
+};
+struct ObjectGet {
+  std::string id;
+};
+struct ObjectList {};
+struct ObjectRemove {
+  std::string id;
+};
+
+struct GoalGrab {
+  std::string id;
+  bool force = false;
+};
+struct GoalRelease {
+  std::string id;
+  bool force = false;
 };
 
 struct BindingSet {
@@ -197,16 +218,42 @@ struct StreamAck {
   std::uint64_t seq = 0;
 };
 
-using Params = std::variant<SessionHello, SessionPing, SessionStatus, SessionList, FigureSet, FigureGet, FigureList,
-                            FigureRemove, FigurePin, GoalSet, GoalGet, GoalList, GoalRemove, GoalClear, BindingSet,
-                            BindingGet, BindingList, BindingRemove, JointSet, JointGet, PoseGet, PoseSet, PoseReset,
-                            PoseMirror, SolverGet, SolverSet, Solve, SolveBatch, SceneGet, SceneNew, SceneList,
-                            SceneSave, SceneOpen, TrackerList, StreamSubscribe, StreamUnsubscribe, StreamAck>;
+inline constexpr std::size_t kMaxEdits = 1000;       // of an edit.apply
+inline constexpr std::size_t kMaxHistory = 1000;     // steps of an edit.history
+inline constexpr std::size_t kMaxResumeBytes = 128;  // of a session's key
 
-struct Request {
-  std::string id;                            // JSON text of the id; empty: a notification, which gets no reply
-  std::optional<std::uint64_t> if_revision;  // edits only
+struct Edit;
+struct EditApply {
+  std::vector<Edit> edits;
+  std::string label;
+};
+struct EditUndo {
+  std::uint64_t step = 0;  // 0: the last one
+};
+struct EditRedo {};
+struct EditHistory {
+  int limit = 100;
+};
+
+using Params =
+    std::variant<SessionHello, SessionPing, SessionStatus, SessionList, FigureSet, FigureGet, FigureList, FigureRemove,
+                 FigurePin, GoalSet, GoalGet, GoalList, GoalRemove, GoalClear, GoalGrab, GoalRelease, ObjectSet,
+                 ObjectGet, ObjectList, ObjectRemove, BindingSet, BindingGet, BindingList, BindingRemove, JointSet,
+                 JointGet, PoseGet, PoseSet, PoseReset, PoseMirror, SolverGet, SolverSet, Solve, SolveBatch, SceneGet,
+                 SceneNew, SceneList, SceneSave, SceneOpen, TrackerList, StreamSubscribe, StreamUnsubscribe, StreamAck,
+                 EditApply, EditUndo, EditRedo, EditHistory>;
+
+struct Edit {
+  std::optional<std::uint64_t> if_revision;  // edits of one entity only
   Params params;
+};
+
+struct Request : Edit {
+  std::string id;  // JSON text of the id; empty: a notification, which gets no reply
+  // Of edits.
+  std::string gesture;  // edits of the same one are one step to undo
+  std::string once;     // a UUID
+  bool force = false;   // whoever holds the goal
 };
 
 // What could not be read as a request, and what to answer. Always answered, even without an id ("null").
@@ -225,7 +272,7 @@ struct Line {
 
 struct HelloResult {
   Software daemon;
-  std::string session, boot;
+  std::string session, resume, boot;
   Role role = Role::operator_;
   std::vector<std::string> features;
   Nanoseconds t_ns = 0, utc_ns = 0;
@@ -260,6 +307,32 @@ struct ClearResult {
   int removed = 0;
   std::uint64_t revision = 0;
 };
+// Of an edit among several: of one entity, or a goal.clear's.
+struct AppliedResult : EditResult {
+  std::optional<int> removed;
+};
+struct ApplyResult {
+  std::uint64_t revision = 0;
+  std::vector<AppliedResult> results;  // in the order of the edits
+};
+struct StepResult {
+  std::uint64_t step = 0, revision = 0;
+  std::vector<std::string> entities;  // paths of the document
+};
+struct HistoryStep {
+  std::uint64_t step = 0, revision = 0;
+  Nanoseconds t_ns = 0;
+  std::string user, session, method, label, gesture;
+  std::vector<std::string> entities;
+  bool mine = false, undone = false;
+};
+struct HistoryResult {
+  std::vector<HistoryStep> steps;  // newest first
+};
+struct GrabResult {
+  std::string id;
+  int idle_ms = 0;
+};
 struct RevisionResult {
   std::uint64_t revision = 0;
 };
@@ -288,9 +361,17 @@ struct FigureListResult {
 struct GoalResult {
   Goal goal;
   std::uint64_t entity_revision = 0;
+  std::string held_by = {};
 };
 struct GoalListResult {
   std::vector<GoalResult> goals;
+};
+struct ObjectResult {
+  Object object;
+  std::uint64_t entity_revision = 0;
+};
+struct ObjectListResult {
+  std::vector<ObjectResult> objects;
 };
 struct BindingResult {
   Binding binding;

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 
 #include "common/names.h"
+#include "proto/codec.h"
 #include "proto/describe.h"
 
 namespace posed::proto {
@@ -25,11 +27,11 @@ constexpr std::size_t index_of() {
 }
 
 template <class T>
-constexpr Method method(const char* name, bool edits = false) {
+constexpr Method method(const char* name, Edits edits = Edits::nothing) {
   return {name, edits, &read_params<T>, index_of<T>()};
 }
 
-constexpr bool kEdits = true;
+constexpr Edits kEdits = Edits::entity;
 constexpr std::array kMethods{
     method<SessionHello>("session.hello"),
     method<SessionPing>("session.ping"),
@@ -44,7 +46,13 @@ constexpr std::array kMethods{
     method<GoalGet>("goal.get"),
     method<GoalList>("goal.list"),
     method<GoalRemove>("goal.remove", kEdits),
-    method<GoalClear>("goal.clear"),
+    method<GoalClear>("goal.clear", Edits::whole),
+    method<GoalGrab>("goal.grab"),
+    method<GoalRelease>("goal.release"),
+    method<ObjectSet>("object.set", kEdits),
+    method<ObjectGet>("object.get"),
+    method<ObjectList>("object.list"),
+    method<ObjectRemove>("object.remove", kEdits),
     method<BindingSet>("binding.set", kEdits),
     method<BindingGet>("binding.get"),
     method<BindingList>("binding.list"),
@@ -60,21 +68,23 @@ constexpr std::array kMethods{
     method<Solve>("solve"),
     method<SolveBatch>("solve.batch"),
     method<SceneGet>("scene.get"),
-    method<SceneNew>("scene.new"),
+    method<SceneNew>("scene.new", Edits::whole),
     method<SceneList>("scene.list"),
     method<SceneSave>("scene.save"),
-    method<SceneOpen>("scene.open"),
+    method<SceneOpen>("scene.open", Edits::whole),
     method<TrackerList>("tracker.list"),
     method<StreamSubscribe>("stream.subscribe"),
     method<StreamUnsubscribe>("stream.unsubscribe"),
     method<StreamAck>("stream.ack"),
+    method<EditApply>("edit.apply", Edits::whole),
+    method<EditUndo>("edit.undo", Edits::step),
+    method<EditRedo>("edit.redo", Edits::step),
+    method<EditHistory>("edit.history"),
 };
 static_assert(kMethods.size() == std::variant_size_v<Params>);
 
 constexpr const char* kReserved[] = {
-    "scene.remove", "object.set",      "object.get",        "object.list",   "object.remove",
-    "camera.set",   "camera.get",      "camera.list",       "camera.remove", "goal.grab",
-    "goal.release", "edit.apply",      "edit.undo",         "edit.redo",     "edit.history",
+    "scene.remove", "camera.set",      "camera.get",        "camera.list",   "camera.remove",
     "tracker.grab", "tracker.release", "tracker.configure", "tracker.align", "tracker.reset",
 };
 
@@ -82,11 +92,17 @@ bool ends_with_any(std::string_view name, std::initializer_list<std::string_view
   return std::any_of(endings.begin(), endings.end(), [&](std::string_view ending) { return name.ends_with(ending); });
 }
 
-}  // namespace
-
-std::string_view method_name(const Params& params) {
-  return method_of(params).name;
+// 8-4-4-4-12 hexadecimal digits.
+bool is_uuid(const std::string& text) {
+  if (text.size() != 36) return false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool dash = i == 8 || i == 13 || i == 18 || i == 23;
+    if (dash ? text[i] != '-' : !std::isxdigit(static_cast<unsigned char>(text[i]))) return false;
+  }
+  return true;
 }
+
+}  // namespace
 
 Role role_for(const Params& params) {
   const std::string_view name = method_of(params).name;
@@ -108,6 +124,61 @@ std::string_view name_of(Role role) {
   return word(role);
 }
 
+void read_request(ReadContext& context, Json params, const Method& method, Request& out) {
+  if (expect_object(context, params)) {
+    Reader common(context, params);
+    common.reserved("scene", "\"main\"");
+    if (method.edits == Edits::entity) common.optional("if_revision", out.if_revision);
+    if (method.edits == Edits::entity || method.edits == Edits::whole) common.optional("gesture", out.gesture);
+    if (method.edits != Edits::nothing) {
+      if (common.optional("once", out.once) && !is_uuid(out.once)) {
+        common.fail_at("once", "invalid_params", "once is no UUID",
+                       "\"0b6f2f4e-7c1d-4a53-9a56-3f1e2d4c5b6a\", another for each edit");
+      }
+      common.optional("force", out.force);
+    }
+    for (const std::string& key : common.known()) params.erase(key);
+  }
+  if (!context.error) out.params = method.read(context, params);
+}
+
+void read(ReadContext& c, const Json& j, Edit& out) {
+  if (!expect_object(c, j)) return;
+  Reader reader(c, j);
+  std::string name;
+  reader.required("method", name);
+  RawJson params{Json::object()};
+  reader.optional("params", params);
+  reader.finish();
+  if (c.error) return;
+  const Method* method = find_method(name);
+  if (!method) {
+    return reader.fail_at("method", "unknown_method", "no method is called " + name.substr(0, 64),
+                          nearest_method(name));
+  }
+  if (method->edits != Edits::entity && name != "goal.clear") {
+    return reader.fail_at("method", "invalid_params", name + " can not be one edit among several",
+                          "edits of one entity can, and goal.clear");
+  }
+  const At at(c, "params");
+  if (params.json.is_object()) {
+    Reader own(c, params.json);
+    for (const char* key : {"gesture", "once", "force"}) {
+      if (own.has(key))
+        own.fail_at(key, "unknown_field", std::string(key) + " is said of all edits together", "say it beside edits");
+    }
+  }
+  Request request;
+  if (!c.error) read_request(c, std::move(params.json), *method, request);
+  out = std::move(request);
+}
+
+Json write(const Edit& edit) {
+  Json params = std::visit([](const auto& message) { return write(message); }, edit.params);
+  if (edit.if_revision) params["if_revision"] = *edit.if_revision;
+  return Json{{"method", method_of(edit.params).name}, {"params", std::move(params)}};
+}
+
 const Method* find_method(std::string_view name) {
   const auto found = std::find_if(kMethods.begin(), kMethods.end(), [&](const Method& m) { return name == m.name; });
   return found == kMethods.end() ? nullptr : &*found;
@@ -115,6 +186,10 @@ const Method* find_method(std::string_view name) {
 
 const Method& method_of(const Params& params) {
   return *std::find_if(kMethods.begin(), kMethods.end(), [&](const Method& m) { return m.index == params.index(); });
+}
+
+std::string_view method_name(const Params& params) {
+  return method_of(params).name;
 }
 
 std::string nearest_method(std::string_view name) {

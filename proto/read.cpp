@@ -1,5 +1,7 @@
 #include "proto/read.h"
 
+#include <algorithm>
+#include <iterator>
 #include <span>
 
 #include "common/names.h"
@@ -164,15 +166,17 @@ void read(ReadContext& c, const Json& j, Swing& out) {
 void read(ReadContext& c, const Json& j, GoalBase& out) {
   out = {};
   if (j == "world") return;
-  constexpr const char* kHint = R"("world", {"figure":"body","segment":"head"} or {"sensor":"liberty:1"})";
-  if (!j.is_object()) return c.fail("invalid_params", "a goal is relative to the world, a segment or a sensor", kHint);
+  constexpr const char* kHint =
+      R"("world", {"figure":"body","segment":"head"}, {"object":"chair"} or {"sensor":"liberty:1"})";
+  if (!j.is_object())
+    return c.fail("invalid_params", "a goal is relative to the world, a segment, an object or a sensor", kHint);
   Reader r(c, j);
-  r.reserved("object");
+  const bool object = r.optional("object", out.object);
   const bool figure = r.optional("figure", out.figure), segment = r.optional("segment", out.segment);
   const bool sensor = r.optional("sensor", out.sensor);
-  out.kind = sensor ? GoalBase::Kind::sensor : GoalBase::Kind::segment;
-  if (sensor && (figure || segment)) r.fail("invalid_params", "a goal is relative to one thing", kHint);
-  if (!sensor && !segment) r.fail_at("segment", "missing_field", "the field \"segment\" is missing", kHint);
+  out.kind = sensor ? GoalBase::Kind::sensor : object ? GoalBase::Kind::object : GoalBase::Kind::segment;
+  if (sensor + object + (figure || segment) > 1) r.fail("invalid_params", "a goal is relative to one thing", kHint);
+  if (!sensor && !object && !segment) r.fail_at("segment", "missing_field", "the field \"segment\" is missing", kHint);
   r.finish();
 }
 
@@ -204,21 +208,17 @@ void read(ReadContext& c, const Json& j, JointValue& out) {
 
 void read(ReadContext& c, const Json& j, Axes& out) {
   if (!expect_array(c, j)) return;
-  out = {false, false, false};
+  bool named[6] = {};
+  constexpr const char* kNames[] = {"x", "y", "z", "rx", "ry", "rz"};
   for (const Json& item : j) {
-    const std::string name = item.is_string() ? item.get<std::string>() : "";
-    if (name == "x")
-      out.x = true;
-    else if (name == "y")
-      out.y = true;
-    else if (name == "z")
-      out.z = true;
-    else if (name == "rx" || name == "ry" || name == "rz") {
-      return c.fail("not_available", "a position goal takes no rotation", "name some of x y z");
-    } else {
+    const auto* const found = std::find(std::begin(kNames), std::end(kNames), item);
+    if (found == std::end(kNames))
       return c.fail("invalid_params", "an axis is one of x y z rx ry rz", "name some of x y z");
-    }
+    named[found - kNames] = true;
   }
+  if (named[3] != named[4] || named[4] != named[5])
+    return c.fail("not_available", "a rotation is taken whole", "name all of rx ry rz, or none");
+  out = {named[0], named[1], named[2], named[3]};
 }
 
 void read(ReadContext& c, const Json& j, Start& out) {

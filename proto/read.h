@@ -180,6 +180,7 @@ class Reader {
     error.path = context_.path + error.path;
     context_.error = std::move(error);
   }
+  const std::vector<std::string>& known() const { return known_; }  // fields that were asked for
   bool has(const char* key) const { return object_.contains(key); }
   bool ok() const { return !context_.error; }
 

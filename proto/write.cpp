@@ -24,6 +24,9 @@ Json write(const Axes& a) {
   if (a.x) j.push_back("x");
   if (a.y) j.push_back("y");
   if (a.z) j.push_back("z");
+  if (a.rotation) {
+    for (const char* axis : {"rx", "ry", "rz"}) j.push_back(axis);
+  }
   return j;
 }
 
@@ -55,6 +58,7 @@ Json write(const Swing& s) {
 Json write(const GoalBase& b) {
   if (b.kind == GoalBase::Kind::world) return "world";
   if (b.kind == GoalBase::Kind::sensor) return Json{{"sensor", b.sensor}};
+  if (b.kind == GoalBase::Kind::object) return Json{{"object", b.object}};
   Json j = Json::object();
   if (!b.figure.empty()) j["figure"] = b.figure;
   j["segment"] = b.segment;

@@ -1,6 +1,7 @@
 #include "server/daemon/config.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <cstdlib>
@@ -70,7 +71,9 @@ std::optional<Config> read_config(int argc, const char* const* argv, int& exit_c
   app.add_option("--data", config.data, "the folder of what must survive")->capture_default_str();
   app.add_option("--log", level, "debug, info, warning or error")
       ->check(CLI::IsMember({"debug", "info", "warning", "error"}));
-  app.add_option("--scene.template", config.scene_template, "the scene to start with")->capture_default_str();
+  app.add_option("--scene.template", config.scene_template,
+                 "the scene that a fresh data directory begins with; said on the command line, any")
+      ->capture_default_str();
   app.add_option("--scene.path", config.scenes, "the folder of scene templates")->capture_default_str();
   app.add_option("--viewer.path", config.viewer, "the folder of the built viewer")->capture_default_str();
   app.add_option("--solver.method", config.solve_method, "springs, or reach_tree: the paper's own")
@@ -86,6 +89,9 @@ std::optional<Config> read_config(int argc, const char* const* argv, int& exit_c
   try {
     app.parse(argc, argv);
     parse_listen(listen, config);
+    // The file says what to begin with; to replace a scene that is there takes a word of its own.
+    config.begin_anew = std::any_of(
+        argv + 1, argv + argc, [](const char* word) { return std::string_view(word).starts_with("--scene.template"); });
     if (config.tls_certificate.empty() != config.tls_key.empty())
       throw CLI::ValidationError("--tls.certificate", "a certificate and its --tls.key go together");
     config.beyond_loopback = !loopback(config.host);

@@ -20,6 +20,7 @@ struct Config {
   std::filesystem::path viewer;
   std::filesystem::path scenes;
   std::string scene_template = "standing";
+  bool begin_anew = false;  // with it, whatever scene the store has
   LogLevel log = LogLevel::info;
   std::filesystem::path tokens;                    // empty: nobody is asked for one
   std::filesystem::path tls_certificate, tls_key;  // empty: no TLS

@@ -68,11 +68,20 @@ struct Daemon::Impl {
     pipeline.tokens = network.tokens;
     pipeline.solving.deadline_ns = static_cast<Nanoseconds>(config.solve_deadline_ms * 1e6);
     pipeline.solving.method = pipeline.default_method = *find_method(config.solve_method);
+    if (store.live().revision > 0 && !config.begin_anew) {
+      if (const Status resumed = pipeline.resume(store.live()); !resumed) {
+        throw std::runtime_error("the scene in " + (config.data / "posed.db").string() + " cannot be read, at " +
+                                 resumed.error().path + ": " + resumed.error().message +
+                                 "; it is left as it is: begin anew with --scene.template NAME, or choose another "
+                                 "directory with --data");
+      }
+      return;
+    }
     const Result<std::string> text = pipeline.templates.read(config.scene_template);
     if (!text)
       throw std::runtime_error("the scene " + config.scene_template + ": " + text.error().message +
                                (text.error().hint.empty() ? "" : " (" + text.error().hint + ")"));
-    if (const Status loaded = pipeline.load_scene(*text, 0); !loaded) {
+    if (const Status loaded = pipeline.begin_with(*text); !loaded) {
       throw std::runtime_error("the scene " + config.scene_template + ", at " + loaded.error().path + ": " +
                                loaded.error().message);
     }
@@ -122,6 +131,7 @@ void Daemon::run(bool handle_signals) {
   impl_->server.start();
   for (auto& tracker : impl_->trackers) impl_->start_tracker(*tracker);
   impl_->loop.run();
+  impl_->pipeline.on_stopped();
   for (auto& tracker : impl_->trackers) tracker->stop();
   impl_->server.stop();
 }

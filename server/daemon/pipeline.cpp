@@ -1,7 +1,6 @@
 #include "server/daemon/pipeline.h"
 
 #include <algorithm>
-#include <random>
 #include <thread>
 #include <utility>
 
@@ -10,14 +9,6 @@
 
 namespace posed {
 namespace {
-
-std::string random_boot() {
-  constexpr char kDigits[] = "0123456789abcdef";
-  std::random_device device;
-  std::string boot;
-  for (int i = 0; i < 16; ++i) boot += kDigits[device() & 15u];
-  return boot;
-}
 
 constexpr std::size_t kTimesKept = 4096;
 constexpr Nanoseconds kStreamPeriod = 1'000'000'000 / 240;
@@ -38,6 +29,36 @@ double median_us(std::vector<Nanoseconds>& times) {
 
 }  // namespace
 
+namespace {
+
+// The parts put together: figures with their q.
+std::string document_text(const StoredScene& kept) {
+  std::map<std::string, std::string> q;
+  for (const StoredPart& part : kept.parts) {
+    if (part.path.starts_with("/figures/") && part.path.ends_with("/q")) q[part.path] = part.document;
+  }
+  std::string text = R"({"format":"posed.scene/1")";
+  for (const std::string kind : {"figures", "objects", "goals", "bindings"}) {
+    text += ",\"" + kind + "\":{";
+    const std::string prefix = "/" + kind + "/";
+    bool first = true;
+    for (const StoredPart& part : kept.parts) {
+      if (!part.path.starts_with(prefix) || q.contains(part.path)) continue;
+      std::string document = part.document;
+      if (const auto own = q.find(part.path + "/q"); own != q.end()) {
+        document.pop_back();
+        document += (document.size() > 1 ? ",\"q\":" : "\"q\":") + own->second + "}";
+      }
+      text.append(std::exchange(first, false) ? "\"" : ",\"").append(part.path.substr(prefix.size())).append("\":");
+      text += document;
+    }
+    text += "}";
+  }
+  return text + "}";
+}
+
+}  // namespace
+
 Pipeline::Pipeline(Loop& station, net::Server& network, Store& disk, Templates scene_templates,
                    const Clock& daemon_clock)
     : loop(station),
@@ -45,8 +66,13 @@ Pipeline::Pipeline(Loop& station, net::Server& network, Store& disk, Templates s
       store(disk),
       templates(std::move(scene_templates)),
       clock(daemon_clock),
-      boot(random_boot()),
-      publisher(network, scene, solving),
+      boot(random_key().substr(0, 16)),
+      journal(station, disk, scene, editing, once,
+              [this] {
+                publisher.scene_failed();
+                wake_solver(false, false);
+              }),
+      publisher(network, scene, solving, journal),
       problem_solvers(std::max(1u, std::thread::hardware_concurrency())),
       workers(problem_solvers.size()) {
   solve_times_.reserve(kTimesKept);
@@ -70,28 +96,33 @@ void Pipeline::on_line(net::ConnectionId connection, proto::Line line, Nanosecon
   Requests(*this, connection, receive_t_ns).handle(std::move(line));
 }
 
-void Pipeline::edited(net::ConnectionId by) {
+void Pipeline::edited(net::ConnectionId by, Done done, std::string once_key, bool back, Stored stored) {
   const auto session = sessions.find(by);
+  journal.add(std::move(done), std::move(once_key));
+  journal.when_stored(std::move(stored));
   publisher.publish_scene(session == sessions.end() ? "posed" : session->second.id);
   pose_t_ns_ = clock.now();
-  wake_solver(false);
+  wake_solver(false, !back);
 }
 
 // The solve stands at the end of the queue, so that whatever has arrived by then goes into it: a burst of edits or of
 // frames costs one solve, not one each.
-void Pipeline::wake_solver(bool live_only) {
+void Pipeline::wake_solver(bool live_only, bool explore) {
   solve_live_only_ = solve_live_only_ && live_only;
+  solve_explores_ = solve_explores_ || (!live_only && explore);
   if (solve_due_) return;
   solve_due_ = true;
   loop.post([this] { solve(); });
 }
 
 void Pipeline::solve() {
-  const bool way_to_go = solving.solve(scene, solve_live_only_, clock);
+  const bool way_to_go = solving.solve(scene, solve_live_only_, clock, solve_explores_);
   solve_due_ = false;
+  solve_explores_ = false;
   solve_live_only_ = true;
   if (way_to_go) go_on();
   publisher.publish_pose(pose_t_ns_);
+  journal.write();  // now it carries the pose
   keep(solve_times_, solving.last_solve_ns());
   if (sample_t_ns_) keep(sample_to_send_, clock.now() - *sample_t_ns_);
   sample_t_ns_.reset();
@@ -115,12 +146,28 @@ void Pipeline::go_on() {
   });
 }
 
-Status Pipeline::load_scene(std::string_view text, net::ConnectionId by) {
+Status Pipeline::begin_with(std::string_view text) {
   const Result<SceneDocument> document = proto::decode_scene(text);
   if (!document) return document.error();
   Status loaded = scene.load(*document);
-  if (loaded) edited(by);
+  if (!loaded) return loaded;
+  pose_t_ns_ = clock.now();
+  journal.add_all();
+  wake_solver(false);
   return loaded;
+}
+
+Status Pipeline::resume(const StoredScene& kept) {
+  const Result<SceneDocument> document = proto::decode_scene(document_text(kept));
+  if (!document) return document.error();
+  if (Status loaded = scene.load(*document); !loaded) return loaded;
+  std::map<std::string, Revision> revisions;
+  for (const StoredPart& part : kept.parts) revisions[part.path] = part.revision;
+  scene.resume(kept.revision, revisions);
+  for (const StoredOnce& edit : kept.once) once.add({edit.uuid, edit.method, edit.result});
+  pose_t_ns_ = clock.now();
+  wake_solver(false, false);
+  return Ok{};
 }
 
 void Pipeline::answer_pose(std::string figure, Revision revision, Nanoseconds wait, Responder responder) {
@@ -170,16 +217,14 @@ void Pipeline::on_tracker(const std::string& id, const std::string& kind, const 
 
 void Pipeline::on_opened(net::ConnectionId connection, net::Peer peer) {
   // Not "s" + ...: GCC 12 warns falsely of an overlap in it.
-  sessions[connection] = {std::string("s").append(std::to_string(next_session_++)),
-                          std::move(peer),
-                          "",
-                          {},
+  sessions[connection] = {std::string("s").append(std::to_string(next_session_++)), std::move(peer), "", "", {},
                           tokens ? proto::Role::none : proto::Role::operator_};
 }
 
 void Pipeline::on_closed(net::ConnectionId connection) {
   publisher.forget(connection);
   workers.drop(connection);
+  editing.gone(connection);
   sessions.erase(connection);
 }
 

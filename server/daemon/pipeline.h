@@ -1,7 +1,7 @@
 // READ FIRST. The whole way of the data, one function a step:
 //
 //   tracker bytes -> Frame -> on_frame: scene.follow -> solve -> publish -> viewers
-//   viewer line -> request -> on_line: Requests::handle: scene.set_... -> edited -> solve -> publish
+//   viewer line -> request -> on_line: Requests::handle: editing.edit -> edited -> solve -> publish
 //
 // All of it runs on the station loop; only the server and the trackers have threads of their own, and they post here.
 #pragma once
@@ -14,14 +14,16 @@
 
 #include "common/frame.h"
 #include "common/time.h"
+#include "server/daemon/journal.h"
 #include "server/daemon/loop.h"
+#include "server/daemon/once.h"
 #include "server/daemon/publisher.h"
 #include "server/daemon/responder.h"
 #include "server/daemon/solve_job.h"
 #include "server/daemon/solving.h"
 #include "server/daemon/templates.h"
 #include "server/net/server.h"
-#include "server/scene/scene.h"
+#include "server/scene/editing.h"
 #include "server/store/store.h"
 #include "server/tracker/tracker.h"
 
@@ -31,9 +33,13 @@ struct Session {
   std::string id;  // "s3"
   net::Peer peer;
   std::string user;
+  std::string resume;  // after a hello: with the user's name, whose edits these are, on whatever connection
   proto::Software client;
   proto::Role role = proto::Role::none;
   bool token_refused = false;  // and said in the log
+
+  // Who has said no hello is known by the session alone.
+  Editor editor() const { return {resume.empty() ? id : user + '\n' + resume, user.empty() ? id : user, id}; }
 };
 
 struct TrackerState {
@@ -52,6 +58,8 @@ class Pipeline {
   void on_tracker(const std::string& id, const std::string& kind, const tracker::Status& status);
   void on_opened(net::ConnectionId connection, net::Peer peer);
   void on_closed(net::ConnectionId connection);
+  // The loop has ended: the last edits, and poses, go to the store.
+  void on_stopped() { journal.write(); }
   void on_line(net::ConnectionId connection, proto::Line line, Nanoseconds receive_t_ns);
 
   // Begins the clockwork of statistics.
@@ -59,12 +67,16 @@ class Pipeline {
 
   // ---- what the handlers of requests use ----
 
-  // To be called after every change of the scene: tells followers and has the figures solved.
-  void edited(net::ConnectionId by);
+  using Stored = std::function<void(const Status&)>;
+  // To be called after every edit: has the figures solved at once, and tells followers and `stored` when the disk has
+  // it. `back`: to what was before, so the poses stay near what they are. `once`: the edit's UUID.
+  void edited(net::ConnectionId by, Done done, std::string once, bool back, Stored stored);
   // Solves again although nothing was edited.
   void resolve() { wake_solver(false); }
-  // Replaces the scene. Nothing changes on an error.
-  Status load_scene(std::string_view text, net::ConnectionId by);
+  // The scene to begin with. Nothing changes on an error.
+  Status begin_with(std::string_view text);
+  // The scene that the store has kept, with its revisions and poses. Errors: "bad_scene" and others of a document.
+  Status resume(const StoredScene& kept);
   // Answers with the figure's pose once it is of `revision`, or when the time is up.
   void answer_pose(std::string figure, Revision revision, Nanoseconds wait, Responder responder);
 
@@ -75,6 +87,9 @@ class Pipeline {
   const Clock& clock;
   const std::string boot;
   Scene scene;
+  Editing editing{scene};
+  OnceMemory once;
+  Journal journal;
   Solving solving;
   std::shared_ptr<const net::Tokens> tokens;  // none: everybody may do everything
   Method default_method = Method::springs;    // what solver.set goes back to
@@ -93,7 +108,7 @@ class Pipeline {
     Responder responder;
   };
 
-  void wake_solver(bool live_only);
+  void wake_solver(bool live_only, bool explore = true);
   void solve();
   void go_on();
   void reply_pose(const std::string& figure, Responder& responder) const;
@@ -101,6 +116,7 @@ class Pipeline {
 
   bool solve_due_ = false;
   bool solve_live_only_ = true;
+  bool solve_explores_ = false;
   bool going_on_ = false;
   std::optional<Nanoseconds> sample_t_ns_;  // arrival of the oldest sample that waits for its solve
   Nanoseconds pose_t_ns_ = 0;

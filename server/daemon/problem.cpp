@@ -63,6 +63,8 @@ Result<std::string> add_goal(Scene& scene, const std::string& figure, GoalEdit e
   const GoalBase* base = edit.relative_to.value();
   if (base && base->kind == GoalBase::Kind::sensor)
     return Error{"invalid_params", "a problem has no sensors", "/relative_to", "say where the sensor is"};
+  if (base && base->kind == GoalBase::Kind::object)
+    return Error{"invalid_params", "a problem has no objects", "/relative_to", "say where the object is"};
   if (base && base->kind == GoalBase::Kind::segment && !base->figure.empty() && base->figure != figure)
     return Error{"invalid_params", "a problem has one figure", "/relative_to/figure",
                  "say where the other figure's segment is"};

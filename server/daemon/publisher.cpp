@@ -66,27 +66,44 @@ Publisher::Channel Publisher::channel_of(const proto::StreamSubscribe& wish) {
 void Publisher::subscribe(net::ConnectionId connection, const proto::StreamSubscribe& wish) {
   unsubscribe(connection, wish.stream);
   const Channel channel = channel_of(wish);
+  const bool first_of_scene = !scene_followed();
   auto [it, made] = channels_.try_emplace(channel);
   State& state = it->second;
   if (made) state.key = next_key_++;
   ++state.subscribers;
   followers_[connection][static_cast<std::size_t>(wish.stream)] = channel;
 
-  net::SharedLine present = state.last;
-  if (wish.stream == proto::Stream::pose) {
-    present = encode_pose(channel, ++state.seq, pose_t_ns_);
-  } else if (wish.stream == proto::Stream::scene) {
-    if (made) {
+  if (wish.stream == proto::Stream::scene) {
+    if (first_of_scene) {
       scene_text_ = scene_text();
-      scene_revision_ = scene_.revision();
+      scene_revision_ = sent_revision_ = scene_.revision();
     }
-    present =
-        share(proto::encode_scene_snapshot(++state.seq, scene_revision_, scene_text_), wish.stream, wish.encoding);
+    return subscribe_to_scene(connection, wish);
   }
-  server_.subscribe(connection,
-                    {wish.stream, state.key, wish.max_rate_hz, wish.credit, wish.stream != proto::Stream::scene,
-                     wish.encoding == proto::Encoding::cbor},
-                    std::move(present), state.seq);
+  net::SharedLine present = state.last;
+  if (wish.stream == proto::Stream::pose) present = encode_pose(channel, ++state.seq, pose_t_ns_);
+  server_.subscribe(
+      connection, {wish.stream, state.key, wish.max_rate_hz, wish.credit, true, wish.encoding == proto::Encoding::cbor},
+      std::move(present), state.seq);
+}
+
+// From where the scene is now, when the disk has that: what is sent after it begins there.
+void Publisher::subscribe_to_scene(net::ConnectionId connection, const proto::StreamSubscribe& wish) {
+  journal_.when_stored([this, connection, wish, revision = scene_revision_, text = scene_text_](const Status& stored) {
+    const auto follower = followers_.find(connection);
+    if (follower == followers_.end()) return;
+    const auto& channel = follower->second[static_cast<std::size_t>(proto::Stream::scene)];
+    if (!channel) return;  // it has thought better of it
+    State& state = channels_.find(*channel)->second;
+    server_.subscribe(
+        connection,
+        {wish.stream, state.key, wish.max_rate_hz, wish.credit, false, channel->encoding == proto::Encoding::cbor},
+        share(stored ? proto::encode_scene_snapshot(state.seq + 1, revision, text)
+                     : proto::encode_scene_snapshot(state.seq + 1, scene_revision_, scene_text_),
+              proto::Stream::scene, channel->encoding),
+        state.seq + 1);
+    ++state.seq;
+  });
 }
 
 void Publisher::drop(Channels::iterator channel) {
@@ -157,6 +174,11 @@ void Publisher::publish_stats(const proto::StatsData& stats) {
   }
 }
 
+bool Publisher::scene_followed() const {
+  return std::any_of(channels_.begin(), channels_.end(),
+                     [](const auto& entry) { return entry.first.stream == proto::Stream::scene; });
+}
+
 std::string Publisher::scene_text() const {
   SceneDocument document = scene_.document();
   for (auto& [id, figure] : document.figures) figure.q.clear();  // the pose stream carries it
@@ -164,19 +186,31 @@ std::string Publisher::scene_text() const {
 }
 
 void Publisher::publish_scene(const std::string& by) {
-  const auto followed = [](const auto& entry) { return entry.first.stream == proto::Stream::scene; };
-  if (std::none_of(channels_.begin(), channels_.end(), followed)) return;
+  if (!scene_followed()) return;
   std::string text = scene_text();
-  const std::string patch = proto::diff(scene_text_, text);
+  journal_.when_stored([this, from = scene_revision_, revision = scene_.revision(), by,
+                        patch = proto::diff(scene_text_, text)](const Status& stored) {
+    if (stored) send_patch(from, revision, by, patch);
+  });
+  scene_text_ = std::move(text);
+  scene_revision_ = scene_.revision();
+}
+
+void Publisher::send_patch(Revision from, Revision revision, const std::string& by, const std::string& patch) {
   for (auto& [channel, state] : channels_) {
     if (channel.stream != proto::Stream::scene) continue;
     ++state.seq;
     publish(channel, state,
-            share(proto::encode_scene_patch(state.seq, scene_revision_, scene_.revision(), by, patch), channel.stream,
-                  channel.encoding));
+            share(proto::encode_scene_patch(state.seq, from, revision, by, patch), channel.stream, channel.encoding));
   }
-  scene_text_ = std::move(text);
+  sent_revision_ = revision;
+}
+
+void Publisher::scene_failed() {
+  scene_text_ = scene_text();
   scene_revision_ = scene_.revision();
+  // Followers have seen nothing of it; their revision goes on all the same.
+  send_patch(sent_revision_, scene_revision_, "posed", "[]");
 }
 
 }  // namespace posed

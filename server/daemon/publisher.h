@@ -11,6 +11,7 @@
 
 #include "common/frame.h"
 #include "proto/codec.h"
+#include "server/daemon/journal.h"
 #include "server/daemon/solving.h"
 #include "server/net/server.h"
 
@@ -18,8 +19,8 @@ namespace posed {
 
 class Publisher {
  public:
-  Publisher(net::Server& server, const Scene& scene, const Solving& solving)
-      : server_(server), scene_(scene), solving_(solving) {}
+  Publisher(net::Server& server, const Scene& scene, const Solving& solving, Journal& journal)
+      : server_(server), scene_(scene), solving_(solving), journal_(journal) {}
 
   // Of a pose; none means all. Errors: "invalid_params" for a field that is none, path "/fields/0".
   static Status check_fields(const std::vector<std::string>& fields);
@@ -33,7 +34,8 @@ class Publisher {
 
   void publish_pose(Nanoseconds t_ns);
   void publish_frame(const Frame& frame);
-  void publish_scene(const std::string& by);  // after each edit
+  void publish_scene(const std::string& by);  // after each edit; sent when the disk has it
+  void scene_failed();                        // edits that the disk did not take are undone
   void publish_stats(const proto::StatsData& stats);
 
  private:
@@ -56,19 +58,24 @@ class Publisher {
   static Channel channel_of(const proto::StreamSubscribe& wish);
   void publish(const Channel& channel, State& state, net::SharedLine line, Nanoseconds t_ns = 0);
   net::SharedLine encode_pose(const Channel& channel, std::uint64_t seq, Nanoseconds t_ns) const;
+  bool scene_followed() const;
   std::string scene_text() const;
+  void send_patch(Revision from, Revision revision, const std::string& by, const std::string& patch);
+  void subscribe_to_scene(net::ConnectionId connection, const proto::StreamSubscribe& wish);
   void drop(Channels::iterator channel);
 
   net::Server& server_;
   const Scene& scene_;
   const Solving& solving_;
+  Journal& journal_;
   Channels channels_;
   std::uint32_t next_key_ = 1;
   std::map<net::ConnectionId, std::array<std::optional<Channel>, proto::kStreams>> followers_;
   Nanoseconds pose_t_ns_ = 0;
-  // Of the scene stream: what its followers have.
+  // Of the scene stream: what its followers have, or will when the disk has what waits for it.
   std::string scene_text_;
   Revision scene_revision_ = 0;
+  Revision sent_revision_ = 0;
 };
 
 }  // namespace posed

@@ -1,8 +1,9 @@
-// Answers the requests of one line: one function a method, in requests_*.cpp by family. A handler checks, changes the
-// scene through its edits, tells the pipeline, and answers through the Responder.
+// Answers the requests of one line: one function a method, in requests_*.cpp by family. What edits do stands in
+// apply.cpp; they all go through one door, `edit`, and are answered when the disk has them.
 #pragma once
 
 #include "proto/messages.h"
+#include "server/daemon/apply.h"
 #include "server/daemon/pipeline.h"
 #include "server/daemon/responder.h"
 
@@ -22,27 +23,17 @@ class Requests {
   void on(const proto::SessionList&, Responder);
   void on(const proto::TrackerList&, Responder);
 
-  void on(const proto::FigureSet&, Responder);
   void on(const proto::FigureGet&, Responder);
   void on(const proto::FigureList&, Responder);
-  void on(const proto::FigureRemove&, Responder);
-  void on(const proto::FigurePin&, Responder);
-  void on(const proto::GoalSet&, Responder);
   void on(const proto::GoalGet&, Responder);
   void on(const proto::GoalList&, Responder);
-  void on(const proto::GoalRemove&, Responder);
-  void on(const proto::GoalClear&, Responder);
-  void on(const proto::BindingSet&, Responder);
+  void on(const proto::ObjectGet&, Responder);
+  void on(const proto::ObjectList&, Responder);
   void on(const proto::BindingGet&, Responder);
   void on(const proto::BindingList&, Responder);
-  void on(const proto::BindingRemove&, Responder);
 
-  void on(const proto::JointSet&, Responder);
   void on(const proto::JointGet&, Responder);
   void on(const proto::PoseGet&, Responder);
-  void on(const proto::PoseSet&, Responder);
-  void on(const proto::PoseReset&, Responder);
-  void on(const proto::PoseMirror&, Responder);
   void on(const proto::SolverGet&, Responder);
   void on(const proto::SolverSet&, Responder);
 
@@ -60,16 +51,47 @@ class Requests {
   void on(const proto::StreamAck&, Responder);
 
   Status allowed(const proto::Params& params) const;
-  void answer(const Result<Edited>& edited, Responder& responder);
+  void on(const proto::EditUndo&, Responder);
+  void on(const proto::EditRedo&, Responder);
+  void on(const proto::EditHistory&, Responder);
+  void on(const proto::GoalGrab&, Responder);
+  void on(const proto::GoalRelease&, Responder);
+
+  // Edits: `apply` says what each does.
+  template <Applied Message>
+  void on(const Message& m, Responder responder) {
+    if constexpr (std::is_same_v<Message, proto::EditApply>) label_ = m.label;
+    edit(std::move(responder), [&](Scene& scene) { return apply(scene, m, if_revision_); });
+  }
+  template <class Edit>
+  void edit(Responder responder, Edit change) {
+    if (repeated(responder)) return;
+    const auto result = p_.editing.edit(by(), change);
+    if (!result) return responder.params_error(result.error());
+    done(std::move(responder), proto::encode_result(result_of(*result)));
+  }
+  static proto::EditResult result_of(const Edited& e) { return {e.id, e.revision, e.entity_revision}; }
+  template <class Message>
+  static const Message& result_of(const Message& m) {
+    return m;
+  }
+  EditBy by() const;
+  bool repeated(Responder& responder);
+  // The edit is done: the reply goes out when the disk has it. `back`: to what was before.
+  void done(Responder responder, std::string result, bool back = false);
   void start_solving(proto::SolveBatch batch, bool alone, Responder responder);
-  void answer_loaded(const Status& loaded, Responder& responder);
+  void load(std::string_view text, Responder responder);
 
   Pipeline& p_;
   net::ConnectionId connection_;
   Nanoseconds receive_t_ns_;
-  std::optional<Revision> if_revision_;  // of the request at hand
+  // Of the request at hand.
+  std::optional<Revision> if_revision_;
+  std::string method_, label_, gesture_, once_;
+  bool force_ = false;
 };
 
+std::string random_key();  // 128 bits, hexadecimal
 const char* tracker_state_name(tracker::State state);
 
 }  // namespace posed

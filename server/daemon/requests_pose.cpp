@@ -3,40 +3,16 @@
 
 #include "server/daemon/requests.h"
 #include "server/scene/joint_value.h"
-#include "server/scene/mirror.h"
 #include "server/solver/orientation.h"
-#include "server/solver/tempus.h"
 
 namespace posed {
 namespace {
-
-Result<int> joint_of(const BodyTree& tree, const std::string& name) {
-  Result<int> joint = find_joint(tree, name);
-  if (!joint) joint.error().path = "/joint";
-  return joint;
-}
 
 proto::SolverResult message(const Solving& solving) {
   return {name_of(solving.method), solving.iterations, solving.branch_iterations};
 }
 
 }  // namespace
-
-void Requests::on(const proto::JointSet& m, Responder responder) {
-  const Result<const SceneFigure*> figure = p_.scene.find_figure(m.figure);
-  if (!figure) return responder.params_error(figure.error());
-  const BodyTree& tree = *(*figure)->tree;
-  const Result<int> joint = joint_of(tree, m.joint);
-  if (!joint) return responder.params_error(joint.error());
-  Result<std::vector<double>> share = joint_share(tree, *joint, {m.value, m.halfplane, m.deviation, m.twist});
-  if (!share) {
-    if (share.error().path.empty()) share.error().path = "/value";
-    return responder.params_error(share.error());
-  }
-  std::vector<double> q = (*figure)->q;
-  std::copy(share->begin(), share->end(), q.begin() + tree.q_at(*joint));
-  answer(p_.scene.set_q((*figure)->entry.id, std::move(q), if_revision_), responder);
-}
 
 void Requests::on(const proto::JointGet& m, Responder responder) {
   const Result<const SceneFigure*> figure = p_.scene.find_figure(m.figure);
@@ -66,24 +42,6 @@ void Requests::on(const proto::PoseGet& m, Responder responder) {
   const Revision revision = m.min_revision.value_or(p_.scene.revision());
   const Nanoseconds wait = m.min_revision ? Nanoseconds{m.wait_ms} * 1'000'000 : 1'000'000'000;
   p_.answer_pose((*figure)->entry.id, revision, wait, std::move(responder));
-}
-
-void Requests::on(const proto::PoseSet& m, Responder responder) {
-  answer(p_.scene.set_q(m.figure, m.q, if_revision_), responder);
-}
-
-void Requests::on(const proto::PoseReset& m, Responder responder) {
-  const Result<const SceneFigure*> figure = p_.scene.find_figure(m.figure);
-  if (!figure) return responder.params_error(figure.error());
-  const BodyTree& tree = *(*figure)->tree;
-  answer(p_.scene.set_q((*figure)->entry.id, m.to == "start" ? start_pose(tree) : tree.rest(), if_revision_),
-         responder);
-}
-
-void Requests::on(const proto::PoseMirror& m, Responder responder) {
-  const Result<const SceneFigure*> figure = p_.scene.find_figure(m.figure);
-  if (!figure) return responder.params_error(figure.error());
-  answer(p_.scene.set_q((*figure)->entry.id, mirrored(*(*figure)->tree, (*figure)->q), if_revision_), responder);
 }
 
 void Requests::on(const proto::SolverGet&, Responder responder) {

@@ -4,9 +4,13 @@
 
 namespace posed {
 
-void Requests::answer_loaded(const Status& loaded, Responder& responder) {
-  if (!loaded) return responder.error(loaded.error());
-  responder.result(proto::RevisionResult{p_.scene.revision()});
+void Requests::load(std::string_view text, Responder responder) {
+  const Result<SceneDocument> document = proto::decode_scene(text);
+  if (!document) return responder.error(document.error());
+  edit(std::move(responder), [&](Scene& scene) -> Result<proto::RevisionResult> {
+    if (const Status loaded = scene.load(*document); !loaded) return loaded.error();
+    return proto::RevisionResult{scene.revision()};
+  });
 }
 
 void Requests::on(const proto::SceneGet&, Responder responder) {
@@ -16,7 +20,8 @@ void Requests::on(const proto::SceneGet&, Responder responder) {
 void Requests::on(const proto::SceneNew& m, Responder responder) {
   const Result<std::string> text = p_.templates.read(m.template_name);
   if (!text) return responder.params_error(text.error());
-  answer_loaded(p_.load_scene(*text, connection_), responder);
+  label_ = m.template_name;
+  load(*text, std::move(responder));
 }
 
 void Requests::on(const proto::SceneList&, Responder responder) {
@@ -43,10 +48,11 @@ void Requests::on(const proto::SceneSave& m, Responder responder) {
 }
 
 void Requests::on(const proto::SceneOpen& m, Responder responder) {
-  p_.store.load(m.name, [&p = p_, connection = connection_, responder](Result<std::string> text) {
-    p.loop.post([&p, connection, responder, text = std::move(text)]() mutable {
+  label_ = m.name;
+  p_.store.load(m.name, [self = *this, responder](Result<std::string> text) {
+    self.p_.loop.post([self, responder, text = std::move(text)]() mutable {
       if (!text) return responder.params_error(text.error());
-      Requests(p, connection, 0).answer_loaded(p.load_scene(*text, connection), responder);
+      self.load(*text, std::move(responder));
     });
   });
 }

@@ -1,4 +1,5 @@
 // Lines, sessions, trackers and streams.
+#include <random>
 #include <utility>
 
 #include "common/names.h"
@@ -11,6 +12,14 @@ namespace {
 const proto::Software kDaemon{"posed", POSED_VERSION};
 
 }  // namespace
+
+std::string random_key() {
+  constexpr char kDigits[] = "0123456789abcdef";
+  std::random_device device;
+  std::string key;
+  for (int i = 0; i < 32; ++i) key += kDigits[device() & 15u];
+  return key;
+}
 
 const char* tracker_state_name(tracker::State state) {
   switch (state) {
@@ -44,6 +53,11 @@ void Requests::handle(proto::Line line) {
       continue;
     }
     if_revision_ = request.if_revision;
+    method_ = proto::method_name(request.params);
+    label_.clear();
+    gesture_ = std::move(request.gesture);
+    once_ = std::move(request.once);
+    force_ = request.force;
     std::visit([&](auto& params) { on(params, Responder(answers, i, request.id)); }, request.params);
   }
 }
@@ -81,13 +95,15 @@ void Requests::on(const proto::SessionHello& hello, Responder responder) {
     p_.server.admit(connection_);
   }
   session.user = hello.user.empty() && holder ? holder->name : hello.user;
+  session.resume = hello.resume.empty() ? random_key() : hello.resume;
   session.client = hello.client;
   proto::HelloResult result;
   result.daemon = kDaemon;
   result.session = session.id;
+  result.resume = session.resume;
   result.boot = p_.boot;
   result.role = session.role;
-  result.features = {"springs", "reach_tree", "solve"};
+  result.features = {"springs", "reach_tree", "solve", "objects", "undo", "holds", "durable"};
   result.t_ns = p_.clock.now();
   result.utc_ns = utc_now();
   responder.result(result);

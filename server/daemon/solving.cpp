@@ -58,11 +58,11 @@ void Solving::gather(const Scene& scene) {
   gathered_ = method;
 }
 
-SolverOptions Solving::options(bool live_only) const {
+SolverOptions Solving::options(bool live_only, bool explore) const {
   SolverOptions options;
   options.reach_tree.root_iterations = options.springs.iterations = iterations;
   options.reach_tree.branch_iterations = branch_iterations;
-  options.springs.explore = !live_only;
+  options.springs.explore = explore && !live_only;
   if (live_only) {
     options.springs.accuracy = kLiveAccuracy;
     options.springs.most_turn = kLiveTurn;
@@ -70,11 +70,11 @@ SolverOptions Solving::options(bool live_only) const {
   return options;
 }
 
-bool Solving::solve(Scene& scene, bool live_only, const Clock& clock) {
+bool Solving::solve(Scene& scene, bool live_only, const Clock& clock, bool explore) {
   const bool edited = revision_ != scene.revision() || gathered_ != method;
   if (edited) gather(scene);
   revision_ = scene.revision();
-  const SolverOptions how = options(live_only && !edited);
+  const SolverOptions how = options(live_only && !edited, explore);
   bool way_to_go = false;
   for (const auto& group : groups_) {
     if (live_only && !edited && !group->live()) continue;

@@ -22,7 +22,8 @@ class Solving {
 
   // Solves every figure from its present q, or those only that a live goal pulls at, and hands q back to the scene.
   // True where a bound on the joints' speed may have left live goals a way to go.
-  bool solve(Scene& scene, bool live_only, const Clock& clock);
+  // `explore`: other starts than the present pose may win after an edit.
+  bool solve(Scene& scene, bool live_only, const Clock& clock, bool explore = true);
 
   struct Solved {
     const FigureGroup* group;
@@ -40,7 +41,7 @@ class Solving {
  private:
   void gather(const Scene& scene);
   std::unique_ptr<FigureGroup> make_group(const std::vector<const SceneFigure*>& figures);
-  SolverOptions options(bool live_only) const;
+  SolverOptions options(bool live_only, bool explore) const;
 
   std::vector<std::unique_ptr<FigureGroup>> groups_;
   std::map<std::string, Solved> figures_;

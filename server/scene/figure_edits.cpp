@@ -79,14 +79,17 @@ Result<Edited> Scene::set_figure(FigureEntry entry, IfRevision if_revision) {
       return Error{again.error().code, "goal " + goal_id + " does not fit the new figure: " + again.error().message,
                    "/id", "remove the goal first"};
     }
+    static_cast<EntityState&>(*again) = goal;
     again->live = goal.live;
-    again->base_live = goal.base_live;
-    again->revision = goal.revision;
+    again->world_from_base = goal.world_from_base;
+    again->base_moves = goal.base_moves;
     goals.emplace(goal_id, std::move(*again));
   }
+  keep_figure(id);
+  for (const auto& [goal_id, goal] : goals) keep_goal(goal_id);
   for (auto& [goal_id, goal] : goals) goals_.insert_or_assign(goal_id, std::move(goal));
   figures_ = std::move(figures);
-  return Edited{id, ++revision_, revision + 1};
+  return Edited{id, count(), revision + 1};
 }
 
 Result<Edited> Scene::remove_figure(const std::string& id, IfRevision if_revision) {
@@ -97,8 +100,9 @@ Result<Edited> Scene::remove_figure(const std::string& id, IfRevision if_revisio
     if (concerns(goal.goal, id)) orphans.push_back(goal_id);
   }
   for (const std::string& goal_id : orphans) drop_goal(goal_id);
+  keep_figure(id);
   figures_.erase(id);
-  return Edited{id, ++revision_, 0};
+  return Edited{id, count(), 0};
 }
 
 Result<Edited> Scene::set_q(const std::string& id, std::vector<double> q, IfRevision if_revision) {
@@ -107,8 +111,9 @@ Result<Edited> Scene::set_q(const std::string& id, std::vector<double> q, IfRevi
   SceneFigure& figure = figures_.at((*found)->entry.id);
   if (const auto error = stale(figures_, figure.entry.id, if_revision)) return *error;
   if (const Status checked = check_q(*figure.tree, q); !checked) return below("/q", checked.error());
+  keep_pose(figure.entry.id);
   figure.q = std::move(q);
-  return Edited{figure.entry.id, ++revision_, ++figure.revision};
+  return Edited{figure.entry.id, count(), ++figure.revision};
 }
 
 }  // namespace posed

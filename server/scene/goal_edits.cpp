@@ -67,6 +67,11 @@ Result<SceneGoal> Scene::make_goal(Goal goal, const std::map<std::string, SceneF
     const Result<SensorName> sensor = read_sensor(base.sensor);
     if (!sensor) return below("/relative_to", sensor.error());
     made.base_sensor = *sensor;
+  } else if (base.kind == GoalBase::Kind::object) {
+    const auto object = objects_.find(base.object);
+    if (object == objects_.end()) return unknown("object", base.object, keys(objects_), "/relative_to/object");
+    made.world_from_base = object->second.world_from_object();
+    made.base_moves = object->second.live.has_value();
   }
   made.goal = std::move(goal);
   made.revision = 1;
@@ -119,8 +124,8 @@ Result<Edited> Scene::set_goal(const GoalEdit& edit, IfRevision if_revision) {
   Result<SceneGoal> made = make_goal(std::move(goal), figures_);
   if (!made) return made.error();
   for (const auto& [binding_id, binding] : bindings_) {
-    if (binding.binding.goal != id) continue;
-    if (const Status fits = check_bindable(*made); !fits) {
+    if (binding.binding.to.goal != id) continue;
+    if (const Status fits = check_bindable(*made, binding.binding.axes); !fits) {
       return Error{fits.error().code, "binding " + binding_id + " moves it: " + fits.error().message,
                    position_of(made->goal.payload) ? "/relative_to" : std::string("/") + name_of(kind),
                    "remove the binding first"};
@@ -129,11 +134,15 @@ Result<Edited> Scene::set_goal(const GoalEdit& edit, IfRevision if_revision) {
   if (!is_new) {
     made->revision = before->second.revision + 1;
     made->live = before->second.live;
-    if (made->base_sensor == before->second.base_sensor) made->base_live = before->second.base_live;
+    if (made->base_sensor.station != 0 && made->base_sensor == before->second.base_sensor) {
+      made->world_from_base = before->second.world_from_base;
+      made->base_moves = before->second.base_moves;
+    }
   }
   const Revision revision = made->revision;
+  keep_goal(id);
   goals_.insert_or_assign(id, std::move(*made));
-  return Edited{id, ++revision_, revision};
+  return Edited{id, count(), revision};
 }
 
 Result<std::string> Scene::default_id(const GoalEdit& edit) const {
@@ -157,7 +166,7 @@ Result<Edited> Scene::remove_goal(const std::string& id, IfRevision if_revision)
   if (!goals_.contains(id)) return unknown("goal", id, keys(goals_), "/id");
   if (const auto error = stale(goals_, id, if_revision)) return *error;
   drop_goal(id);
-  return Edited{id, ++revision_, 0};
+  return Edited{id, count(), 0};
 }
 
 }  // namespace posed

@@ -1,5 +1,3 @@
-#include <utility>
-
 #include "server/scene/errors.h"
 #include "server/scene/goal_resolve.h"
 #include "server/scene/scene.h"
@@ -47,12 +45,12 @@ Result<Edited> Scene::set_pins(const std::string& id, std::map<std::string, Pin>
   if (!found) return found.error();
   SceneFigure& figure = figures_.at((*found)->entry.id);
   if (const auto error = stale(figures_, figure.entry.id, if_revision)) return *error;
-  std::map<std::string, Pin> before = std::exchange(figure.entry.pins, std::move(pins));
-  if (const Status complete = complete_pins(figure); !complete) {
-    figure.entry.pins = std::move(before);
-    return complete.error();
-  }
-  return Edited{figure.entry.id, ++revision_, ++figure.revision};
+  SceneFigure pinned = figure;
+  pinned.entry.pins = std::move(pins);
+  if (const Status complete = complete_pins(pinned); !complete) return complete.error();
+  keep_figure(figure.entry.id);
+  figure = std::move(pinned);
+  return Edited{figure.entry.id, count(), ++figure.revision};
 }
 
 Result<Edited> Scene::pin(const std::string& id, const std::string& segment, std::optional<Pin::Hold> hold,
@@ -64,13 +62,14 @@ Result<Edited> Scene::pin(const std::string& id, const std::string& segment, std
   if (!place) return below("/segment", place.error());
   if (const auto error = stale(figures_, figure.entry.id, if_revision)) return *error;
   const std::string& name = figure.tree->segment(place->segment).name;
+  keep_figure(figure.entry.id);
   figure.entry.pins.erase(name);
   if (hold) {
     Pin pin{*hold, {}, {}};
     hold_here(figure, place->segment, pin);
     figure.entry.pins.emplace(name, pin);
   }
-  return Edited{figure.entry.id, ++revision_, ++figure.revision};
+  return Edited{figure.entry.id, count(), ++figure.revision};
 }
 
 }  // namespace posed

@@ -18,6 +18,7 @@ SceneDocument Scene::document() const {
     document.figures.emplace(id, std::move(entry));
   }
   for (const auto& [id, goal] : goals_) document.goals.emplace(id, goal.goal);
+  for (const auto& [id, object] : objects_) document.objects.emplace(id, object.object);
   for (const auto& [id, binding] : bindings_) document.bindings.emplace(id, binding.binding);
   return document;
 }
@@ -31,10 +32,17 @@ Status Scene::load(const SceneDocument& document) {
     if (!figure) return below("/figures/" + token(id), figure.error());
     next.figures_.emplace(id, std::move(*figure));
   }
+  for (const auto& [id, entry] : document.objects) {
+    Object named = entry;
+    named.id = id;
+    Result<SceneObject> object = check_id(id) ? make_object(std::move(named)) : check_id(id).error();
+    if (!object) return below("/objects/" + token(id), object.error());
+    next.objects_.emplace(id, std::move(*object));
+  }
   for (const auto& [id, entry] : document.goals) {
     Goal named = entry;
     named.id = id;
-    Result<SceneGoal> goal = check_id(id) ? make_goal(std::move(named), next.figures_) : check_id(id).error();
+    Result<SceneGoal> goal = check_id(id) ? next.make_goal(std::move(named), next.figures_) : check_id(id).error();
     if (!goal) return below("/goals/" + token(id), goal.error());
     next.goals_.emplace(id, std::move(*goal));
   }
@@ -45,9 +53,41 @@ Status Scene::load(const SceneDocument& document) {
     if (!binding) return below("/bindings/" + token(id), binding.error());
     next.bindings_.emplace(id, std::move(*binding));
   }
-  next.revision_ = revision_ + 1;
-  *this = std::move(next);
+  take_over(std::move(next));
   return Ok{};
+}
+
+// Revisions of entities whose ids stay go on.
+template <class Entity>
+void Scene::replace(std::map<std::string, Entity>& entities, std::map<std::string, Entity> next,
+                    std::map<std::string, ChangedEntity<Entity>> Change::*part) {
+  for (const auto& [id, entity] : entities) keep(part, entities, id);
+  for (auto& [id, entity] : next) {
+    keep(part, entities, id);
+    if (const auto before = entities.find(id); before != entities.end()) entity.revision = before->second.revision + 1;
+  }
+  entities = std::move(next);
+}
+
+void Scene::take_over(Scene next) {
+  replace(bindings_, std::move(next.bindings_), &Change::bindings);
+  replace(goals_, std::move(next.goals_), &Change::goals);
+  replace(objects_, std::move(next.objects_), &Change::objects);
+  replace(figures_, std::move(next.figures_), &Change::figures);
+  count();
+}
+
+void Scene::resume(Revision revision, const std::map<std::string, Revision>& revisions) {
+  revision_ = revision;
+  const auto put = [&revisions](auto& entities, const char* path) {
+    for (auto& [id, entity] : entities) {
+      if (const auto found = revisions.find(path + id); found != revisions.end()) entity.revision = found->second;
+    }
+  };
+  put(figures_, "/figures/");
+  put(objects_, "/objects/");
+  put(goals_, "/goals/");
+  put(bindings_, "/bindings/");
 }
 
 Result<const SceneFigure*> Scene::find_figure(const std::string& id) const {
@@ -79,62 +119,28 @@ int Scene::clear_goals(const std::string& figure) {
     drop_goal(id);
     ++removed;
   }
-  if (removed > 0) ++revision_;
+  if (removed > 0) count();
   return removed;
 }
 
-// The goal stays where the sensor left it: letting go of a thing does not throw it back.
-void Scene::let_go(SceneGoal& goal) {
-  if (!goal.live) return;
-  if (Vec3* position = position_of(goal.goal.payload)) *position = *goal.live;
-  if (auto* spring = std::get_if<PositionSpring>(&goal.spring)) spring->position = *goal.live;
-  if (auto* spring = std::get_if<PoseSpring>(&goal.spring)) spring->position = *goal.live;
-  goal.live.reset();
-  ++goal.revision;
+void Scene::drop_bindings(const BindingTarget& to) {
+  for (auto it = bindings_.begin(); it != bindings_.end();) {
+    const auto current = it++;
+    if (current->second.binding.to != to) continue;
+    keep_binding(current->first);
+    bindings_.erase(current);
+  }
 }
 
 void Scene::drop_goal(const std::string& id) {
-  std::erase_if(bindings_, [&](const auto& entry) { return entry.second.binding.goal == id; });
+  drop_bindings({id, ""});
+  keep_goal(id);
   goals_.erase(id);
 }
 
 void Scene::settle(const std::string& figure, const std::vector<double>& q) {
   const auto found = figures_.find(figure);
   if (found != figures_.end()) std::copy(q.begin(), q.end(), found->second.q.begin());
-}
-
-bool Scene::follow(const Frame& frame) {
-  bool moved = false;
-  for (auto& [id, goal] : goals_) {
-    if (goal.base_sensor.station == 0 || goal.base_sensor.device != frame.device) continue;
-    for (const Sample& sample : frame.samples) {
-      if (sample.station != goal.base_sensor.station) continue;
-      moved = moved || !goal.base_live || goal.base_live->position != sample.position ||
-              goal.base_live->rotation != sample.rotation;
-      goal.base_live = Transform{sample.position, sample.rotation};
-    }
-  }
-  for (auto& [id, b] : bindings_) {
-    if (b.sensor.device != frame.device) continue;
-    for (const Sample& sample : frame.samples) {
-      if (sample.station != b.sensor.station) continue;
-      SceneGoal& goal = goals_.find(b.binding.goal)->second;
-      Vec3 wanted = sample.position * b.binding.scale;
-      if (b.binding.mode == Binding::Mode::relative) {
-        if (!b.anchor) b.anchor = SceneBinding::Anchor{sample.position, goal.target()};
-        wanted = b.anchor->target + b.binding.scale * (sample.position - b.anchor->sensor);
-      }
-      const Vec3* placed = position_of(goal.goal.payload);
-      if (!placed) continue;
-      Vec3 target = *placed;
-      if (b.binding.axes.x) target.x = wanted.x;
-      if (b.binding.axes.y) target.y = wanted.y;
-      if (b.binding.axes.z) target.z = wanted.z;
-      moved = moved || !goal.live || *goal.live != target;
-      goal.live = target;
-    }
-  }
-  return moved;
 }
 
 }  // namespace posed

@@ -16,55 +16,17 @@
 #include "common/goal.h"
 #include "common/result.h"
 #include "common/scene.h"
-#include "server/scene/sensor_name.h"
-#include "server/solver/body_tree.h"
-#include "server/solver/spring_goal.h"
+#include "server/scene/change.h"
+#include "server/scene/entities.h"
 
 namespace posed {
 
-using Revision = std::uint64_t;
 using IfRevision = std::optional<Revision>;
 
 struct Edited {
   std::string id;
   Revision revision = 0;         // the scene's
   Revision entity_revision = 0;  // 0: removed
-};
-
-struct SceneFigure {
-  FigureEntry entry;  // its q is empty: the values are in `q`
-  std::shared_ptr<const BodyTree> tree;
-  std::vector<double> q;
-  Revision revision = 0;
-};
-
-struct SceneGoal {
-  Goal goal;
-  AttachedPoint at;        // of kinds that take hold
-  Spring spring;           // the payload, its names resolved
-  int base_segment = -1;   // relative to a segment: which, of the figure goal.relative_to.figure
-  SensorName base_sensor;  // relative to a sensor
-  // What sensors say; no part of the document.
-  std::optional<Vec3> live;            // where a bound sensor has the goal's position, in the world
-  std::optional<Transform> base_live;  // world_from_base, of a goal relative to a sensor that has been heard
-  Revision revision = 0;
-
-  // Of position and pose goals.
-  Vec3 target() const {
-    const Vec3* position = position_of(goal.payload);
-    return live ? *live : position ? *position : kZero;
-  }
-  bool follows_sensors() const { return live || base_live; }
-};
-
-struct SceneBinding {
-  Binding binding;
-  SensorName sensor;
-  struct Anchor {
-    Vec3 sensor, target;
-  };
-  std::optional<Anchor> anchor;  // relative mode: where both stood at the first sample
-  Revision revision = 0;
 };
 
 class Scene {
@@ -76,6 +38,7 @@ class Scene {
   Revision revision() const { return revision_; }
   const std::map<std::string, SceneFigure>& figures() const { return figures_; }
   const std::map<std::string, SceneGoal>& goals() const { return goals_; }
+  const std::map<std::string, SceneObject>& objects() const { return objects_; }
   const std::map<std::string, SceneBinding>& bindings() const { return bindings_; }
 
   SceneDocument document() const;
@@ -88,9 +51,12 @@ class Scene {
   // The figure that was there hands on its pose, goals and pins; the entry's own pins are used for a new figure only.
   Result<Edited> set_figure(FigureEntry entry, IfRevision if_revision);
   Result<Edited> set_goal(const GoalEdit& edit, IfRevision if_revision);
+  Result<Edited> set_object(const ObjectEdit& edit, IfRevision if_revision);
   Result<Edited> set_binding(const BindingEdit& edit, IfRevision if_revision);
   Result<Edited> remove_figure(const std::string& id, IfRevision if_revision);  // and goals of it or relative to it
   Result<Edited> remove_goal(const std::string& id, IfRevision if_revision);    // and what is bound to it
+  // Refused while goals are relative to it ("in_use"); what is bound to it goes with it.
+  Result<Edited> remove_object(const std::string& id, IfRevision if_revision);
   Result<Edited> remove_binding(const std::string& id, IfRevision if_revision);
   int clear_goals(const std::string& figure);  // of all figures where empty; counts one revision
   // A pose set by hand. q is checked.
@@ -103,6 +69,23 @@ class Scene {
   // Exactly these pins; where one leaves its place out, the segment is held where it is.
   Result<Edited> set_pins(const std::string& figure, std::map<std::string, Pin> pins, IfRevision if_revision);
 
+  // After a load, as a restart finds it: `revisions` by paths ("/goals/g1").
+  void resume(Revision revision, const std::map<std::string, Revision>& revisions);
+
+  // ---- several edits as one ----
+
+  // Edits between `begin` and `commit` count as one: the scene's revision grows by one. `commit` says what they have
+  // changed, or nothing; `rollback` leaves the scene as it was.
+  void begin();
+  Change commit(const std::string& by);
+  void rollback();
+  // What has been changed since `begin`: what stood there before.
+  const Change& kept() const { return open_->before; }
+  // Takes a change back: what it says and what stands there change places. One edit. Nothing changes on a conflict.
+  std::optional<Conflict> revert(Change& change);
+  // Whether all that it changed is still so, but for what `next` has changed after it.
+  bool stands(const Change& change, const Change& next) const;
+
   // A sensor's motion: moves what is bound to it or relative to it. No edit, no revision. True where a target moved.
   // Does not allocate.
   bool follow(const Frame& frame);
@@ -114,15 +97,44 @@ class Scene {
   Result<SceneFigure> make_figure(FigureEntry entry) const;
   static Status complete_pins(SceneFigure& figure);
   Result<SceneGoal> make_goal(Goal goal, const std::map<std::string, SceneFigure>& figures) const;
+  static Result<SceneObject> make_object(Object object);
   Result<SceneBinding> make_binding(Binding binding) const;
   Result<std::string> default_id(const GoalEdit& edit) const;  // FIGURE.SEGMENT.KIND
-  static Status check_bindable(const SceneGoal& goal);
-  static void let_go(SceneGoal& goal);
+  static Status check_bindable(const SceneGoal& goal, const Axes& axes);
+  Status check_target(const BindingTarget& to, const Axes& axes) const;
+  void let_go(const BindingTarget& target);
+  bool place_target(const BindingTarget& to, const Axes& axes, const Transform& wanted);
+  Transform target_of(const BindingTarget& to) const;
+  bool carry(const SceneObject& object);
   void drop_goal(const std::string& id);
+  void drop_bindings(const BindingTarget& to);
+  template <class Entity>
+  void replace(std::map<std::string, Entity>& entities, std::map<std::string, Entity> next,
+               std::map<std::string, ChangedEntity<Entity>> Change::*part);
+  void take_over(Scene next);
 
+  struct Open {
+    Revision revision;  // before
+    Change before;      // `other`: what stood there
+  };
+  Revision count();
+  template <class Entity>
+  void keep(std::map<std::string, ChangedEntity<Entity>> Change::*part, const std::map<std::string, Entity>& entities,
+            const std::string& id);
+  void keep_figure(const std::string& id) { keep(&Change::figures, figures_, id); }
+  void keep_object(const std::string& id) { keep(&Change::objects, objects_, id); }
+  void keep_goal(const std::string& id) { keep(&Change::goals, goals_, id); }
+  void keep_binding(const std::string& id) { keep(&Change::bindings, bindings_, id); }
+  void keep_pose(const std::string& figure);
+  std::optional<Conflict> changed_since(const Change& change) const;
+  std::optional<Conflict> refit(const Change& change);
+  void exchange(Change& change);
+
+  std::optional<Open> open_;
   Revision revision_ = 0;
   std::map<std::string, SceneFigure> figures_;
   std::map<std::string, SceneGoal> goals_;
+  std::map<std::string, SceneObject> objects_;
   std::map<std::string, SceneBinding> bindings_;
 };
 

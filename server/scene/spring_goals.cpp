@@ -20,9 +20,10 @@ SpringGoal spring_goal(const SceneGoal& goal, const Transform& world_from_base) 
 
 void follow_sensors(const SceneGoal& goal, SpringGoal& spring) {
   spring.enabled = goal.goal.enabled;
-  if (goal.goal.relative_to.kind == GoalBase::Kind::sensor) {
-    spring.enabled = spring.enabled && goal.base_live;
-    if (goal.base_live) spring.world_from_base = *goal.base_live;
+  const GoalBase::Kind base = goal.goal.relative_to.kind;
+  if (base == GoalBase::Kind::sensor || base == GoalBase::Kind::object) {
+    spring.enabled = spring.enabled && goal.world_from_base;
+    if (goal.world_from_base) spring.world_from_base = *goal.world_from_base;
   }
   if (auto* position = std::get_if<PositionSpring>(&spring.spring)) position->position = goal.target();
   if (auto* pose = std::get_if<PoseSpring>(&spring.spring)) pose->position = goal.target();

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/result.h"
+#include "server/store/store.h"
 
 namespace posed {
 
@@ -17,6 +18,8 @@ class Database {
   explicit Database(const std::filesystem::path& file);  // throws std::runtime_error
 
   Status save(const std::string& name, const std::string& document);
+  StoredScene live();  // throws
+  Status commit(const StoredChanges& changes);
   Result<std::string> load(const std::string& name);
   Result<std::vector<std::string>> list();
 
@@ -28,6 +31,10 @@ class Database {
   using Statement = std::unique_ptr<sqlite3_stmt, Closer>;
 
   Statement prepare(const char* sql);
+  Status run(const char* sql);
+  Status write(const StoredChanges& changes);
+  void check();             // throws
+  void migrate(int found);  // throws
   Error failure(const char* doing) const;
   int number(const char* sql);    // throws
   void execute(const char* sql);  // throws

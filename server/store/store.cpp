@@ -7,11 +7,13 @@
 #include <thread>
 
 #include "server/store/database.h"
+#include "server/store/directory_lock.h"
 
 namespace posed {
 
 struct Store::Impl {
-  explicit Impl(const std::filesystem::path& file) : database(file), thread([this] { run(); }) {}
+  explicit Impl(const std::filesystem::path& directory)
+      : directory_lock(directory), database(directory / "posed.db"), live(database.live()), thread([this] { run(); }) {}
   ~Impl() {
     post({});  // an empty task ends the thread, after those before it
     thread.join();
@@ -37,7 +39,9 @@ struct Store::Impl {
     }
   }
 
+  DirectoryLock directory_lock;
   Database database;
+  const StoredScene live;
   std::mutex mutex;  // the mailbox's; held for a move only
   std::condition_variable wake;
   std::deque<std::function<void()>> tasks;
@@ -51,10 +55,18 @@ Store::Store(const std::filesystem::path& directory) {
     throw std::runtime_error("cannot make the data directory " + directory.string() + ": " + error.message() +
                              "; choose another with --data");
   }
-  impl_ = std::make_unique<Impl>(directory / "posed.db");
+  impl_ = std::make_unique<Impl>(directory);
 }
 
 Store::~Store() = default;
+
+const StoredScene& Store::live() const {
+  return impl_->live;
+}
+
+void Store::commit(StoredChanges changes, std::function<void(Status)> done) {
+  impl_->post([this, changes = std::move(changes), done = std::move(done)] { done(impl_->database.commit(changes)); });
+}
 
 void Store::save(std::string name, std::string document, std::function<void(Status)> done) {
   impl_->post([this, name = std::move(name), document = std::move(document), done = std::move(done)] {

@@ -112,7 +112,7 @@ TEST(Daemon, ASensorBoundToAGoalMovesTheFigureWithNoClientBetween) {
   ASSERT_TRUE(edited);
   proto::BindingSet bind;
   bind.edit.sensor = "simulated:1";
-  bind.edit.goal = edited->id;
+  bind.edit.to = BindingTarget{edited->id, ""};
   const auto bound = client.call<proto::EditResult>(bind);
   ASSERT_TRUE(bound) << bound.error().message;
   const auto revision = client.call<proto::StatusResult>(proto::SessionStatus{})->revision;
@@ -138,9 +138,8 @@ TEST(Daemon, WhatIsReservedIsRefusedNotAliased) {
   const RunningDaemon daemon;
   auto client = daemon.connect();
   const std::pair<const char*, const char*> reserved[] = {
-      {"goal.set", R"({"at":"head","position":[0,0,1],"relative_to":{"object":"chair"}})"},
       {"binding.set", R"({"sensor":"simulated:1","to":{"camera":"main"}})"},
-      {"edit.undo", "{}"},
+      {"camera.list", "{}"},
   };
   for (const auto& [method, params] : reserved) {
     const auto reply = client.call(method, params);
@@ -181,7 +180,8 @@ TEST(Daemon, TheMethodIsSpringsUntilAnotherIsChosen) {
   auto client = daemon.connect();
   EXPECT_EQ(client.call<proto::SolverResult>(proto::SolverGet{})->method, "springs");
   const auto hello = client.call<proto::HelloResult>(proto::SessionHello{});
-  EXPECT_EQ(hello->features, (std::vector<std::string>{"springs", "reach_tree", "solve"}));
+  EXPECT_EQ(hello->features,
+            (std::vector<std::string>{"springs", "reach_tree", "solve", "objects", "undo", "holds", "durable"}));
   const auto refused = client.call("solver.set", R"({"method":"spring"})");
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().path, "/params/method");

@@ -127,7 +127,7 @@ TEST(Springs, ASensorThatJumpsIsFollowedInBoundedStepsThoughNoMoreFramesCome) {
   document.goals["root"].payload = PositionTarget{{0, 0, 0.9275}};
   Binding& binding = document.bindings["b"];
   binding.sensor = "simulated:1";
-  binding.goal = "hand";
+  binding.to.goal = "hand";
   Scene scene;
   ASSERT_TRUE(scene.load(document));
   Solving solving;

@@ -82,14 +82,7 @@ TEST(DecodeParams, WordsThatAreNotKnown) {
 }
 
 TEST(DecodeParams, WhatIsReservedIsNotAvailable) {
-  const std::pair<const char*, const char*> fields[] = {
-      {"gesture", "\"drag-1\""}, {"once", "\"0b6f\""}, {"scene", "\"other\""}};
-  for (const auto& [field, value] : fields) {
-    expect_error(call("goal.set", std::string("{\"") + field + "\":" + value + "}"), "not_available",
-                 std::string("/params/") + field);
-  }
-  expect_error(call("goal.set", R"({"relative_to":{"object":"chair"}})"), "not_available",
-               "/params/relative_to/object");
+  expect_error(call("goal.set", R"({"scene":"other"})"), "not_available", "/params/scene");
   expect_error(call("binding.set", R"({"to":{"joint":"waist"}})"), "not_available", "/params/to/joint");
   expect_error(call("binding.set", R"({"axes":["x","rx"]})"), "not_available", "/params/axes");
   expect_error(call("binding.set", R"({"clutch":{"button":0}})"), "not_available", "/params/clutch");
@@ -132,6 +125,47 @@ TEST(DecodeParams, OnlyEditsTakeIfRevision) {
   }
   expect_error(call("goal.remove", R"({"id":"g1","if_revision":-1})"), "out_of_range", "/params/if_revision");
   EXPECT_EQ(accepted(call("goal.remove", R"({"id":"g1"})")).if_revision, std::nullopt);
+}
+
+TEST(DecodeParams, EditsTakeAGestureAUuidAndForce) {
+  const Request request =
+      accepted(call("goal.set", R"({"gesture":"drag-1","once":"0b6f2f4e-7c1d-4a53-9a56-3f1e2d4c5b6a","force":true})"));
+  EXPECT_EQ(request.gesture, "drag-1");
+  EXPECT_EQ(request.once, "0b6f2f4e-7c1d-4a53-9a56-3f1e2d4c5b6a");
+  EXPECT_TRUE(request.force);
+  for (const char* method : {"goal.clear", "scene.new", "edit.undo", "edit.redo"})
+    EXPECT_TRUE(accepted(call(method, R"({"force":true})")).force) << method;
+  expect_error(call("goal.set", R"({"once":"again"})"), "invalid_params", "/params/once");
+  expect_error(call("edit.undo", R"({"gesture":"drag-1"})"), "unknown_field", "/params/gesture");
+  expect_error(call("goal.get", R"({"id":"g1","once":"0b6f2f4e-7c1d-4a53-9a56-3f1e2d4c5b6a"})"), "unknown_field",
+               "/params/once");
+}
+
+TEST(DecodeParams, EditsAmongSeveralAreToldByTheirPlace) {
+  const auto several = [](const char* edit) {
+    return call("edit.apply", R"({"edits":[{"method":"goal.clear"},)" + std::string(edit) + "]}");
+  };
+  EXPECT_EQ(
+      std::get<EditApply>(accepted(several(R"({"method":"goal.remove","params":{"id":"g1","if_revision":4}})")).params)
+          .edits[1]
+          .if_revision,
+      4u);
+  expect_error(several(R"({"method":"goal.sett","params":{}})"), "unknown_method", "/params/edits/1/method");
+  expect_error(several(R"({"method":"edit.undo"})"), "invalid_params", "/params/edits/1/method");
+  expect_error(several(R"({"method":"scene.open","params":{"name":"a"}})"), "invalid_params", "/params/edits/1/method");
+  expect_error(several(R"({"params":{}})"), "missing_field", "/params/edits/1/method");
+  expect_error(several(R"({"method":"goal.set","params":{"position":[0,0]}})"), "wrong_type",
+               "/params/edits/1/params/position");
+  expect_error(several(R"({"method":"goal.set","params":{"positon":[0,0,0]}})"), "unknown_field",
+               "/params/edits/1/params/positon");
+  expect_error(several(R"({"method":"goal.set","params":{"force":true}})"), "unknown_field",
+               "/params/edits/1/params/force");
+  expect_error(several(R"({"method":"goal.set","params":[]})"), "wrong_type", "/params/edits/1/params");
+  expect_error(several(R"({"method":"goal.set","param":{}})"), "unknown_field", "/params/edits/1/param");
+  expect_error(several("7"), "wrong_type", "/params/edits/1");
+  std::string many = R"({"edits":[)";
+  for (int i = 0; i < 1001; ++i) many += std::string(i ? "," : "") + R"({"method":"goal.clear"})";
+  expect_error(call("edit.apply", many + "]}"), "too_large", "/params/edits");
 }
 
 TEST(DecodeParams, LeftOutNullAndValueAreThreeThings) {
@@ -201,6 +235,7 @@ TEST(DecodeParams, PayloadsAreStrict) {
   refuse(R"({"relative_to":"moon"})", "invalid_params", "/params/relative_to");
   refuse(R"({"relative_to":{}})", "missing_field", "/params/relative_to/segment");
   refuse(R"({"relative_to":{"sensor":"liberty:1","segment":"head"}})", "invalid_params", "/params/relative_to");
+  refuse(R"({"relative_to":{"object":"chair","segment":"head"}})", "invalid_params", "/params/relative_to");
 }
 
 TEST(DecodeParams, APinNamesWhatItHolds) {

@@ -31,9 +31,19 @@ SceneDocument rich_scene() {
   goal.enabled = false;
   goal.user = "null";
   scene.goals["g1"] = goal;
+  Object object;
+  object.world_from_object = {{1.0 / 3.0, 2e-8, -5}, glm::normalize(Quat(0.1, 0.2, -0.3, 0.4))};
+  object.shapes = {{Shape::Kind::capsule, {0, 0, 0}, {0, 0, 1}, 0.1}};
+  object.label = "blue";
+  scene.objects["chair"] = object;
+  Binding carrying;
+  carrying.sensor = "liberty:3";
+  carrying.to = BindingTarget{"", "chair"};
+  carrying.axes = default_axes(carrying.to);
+  scene.bindings["b2"] = carrying;
   Binding binding;
   binding.sensor = "liberty:2";
-  binding.goal = "g1";
+  binding.to = BindingTarget{"g1", ""};
   binding.axes = {false, true, false};
   binding.mode = Binding::Mode::relative;
   binding.scale = -0.1;
@@ -156,7 +166,7 @@ TEST(Documents, WhatIsWrongIsToldWithItsPath) {
   broken(R"([{"op":"add","path":"/extra","value":1}])", "bad_scene", "/extra");
   broken(R"([{"op":"replace","path":"/goals/g1/weight","value":"x"}])", "bad_scene", "/goals/g1/weight");
   broken(R"([{"op":"add","path":"/goals/g1/priority","value":1.5}])", "bad_scene", "/goals/g1/priority");
-  broken(R"([{"op":"add","path":"/objects/chair","value":{}}])", "not_available", "/objects");
+  broken(R"([{"op":"add","path":"/objects/chair","value":{}}])", "bad_scene", "/objects/chair/position");
   broken(R"([{"op":"replace","path":"/figures/own/document/segments/3/joint/type","value":"knot"}])", "bad_scene",
          "/figures/own/document/segments/3/joint/type");
   EXPECT_EQ(decode_scene("{").error().code, "parse_error");
@@ -171,7 +181,7 @@ TEST(Documents, PatchesLeadFromOneToTheOther) {
   scene.goals["g2"].label = "a/b~c";
   texts.push_back(encode_scene(scene));
   scene.goals.erase("g1");
-  scene.bindings["b1"].goal = "g2";
+  scene.bindings["b1"].to.goal = "g2";
   scene.figures["body"].q = {0.2};
   texts.push_back(encode_scene(scene));
   scene.figures.erase("own");

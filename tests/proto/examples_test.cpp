@@ -35,6 +35,10 @@ const std::map<std::string, SayAnew> kResults{{"session.hello", said_anew<HelloR
                                               {"goal.list", said_anew<GoalListResult>},
                                               {"goal.remove", said_anew<EditResult>},
                                               {"goal.clear", said_anew<ClearResult>},
+                                              {"object.set", said_anew<EditResult>},
+                                              {"object.get", said_anew<ObjectResult>},
+                                              {"object.list", said_anew<ObjectListResult>},
+                                              {"object.remove", said_anew<EditResult>},
                                               {"binding.set", said_anew<EditResult>},
                                               {"binding.get", said_anew<BindingResult>},
                                               {"binding.list", said_anew<BindingListResult>},
@@ -57,7 +61,13 @@ const std::map<std::string, SayAnew> kResults{{"session.hello", said_anew<HelloR
                                               {"tracker.list", said_anew<TrackerListResult>},
                                               {"stream.subscribe", said_anew<SubscribeResult>},
                                               {"stream.unsubscribe", said_anew<SubscribeResult>},
-                                              {"stream.ack", said_empty}};
+                                              {"stream.ack", said_empty},
+                                              {"goal.grab", said_anew<GrabResult>},
+                                              {"goal.release", said_empty},
+                                              {"edit.apply", said_anew<ApplyResult>},
+                                              {"edit.undo", said_anew<StepResult>},
+                                              {"edit.redo", said_anew<StepResult>},
+                                              {"edit.history", said_anew<HistoryResult>}};
 
 TEST(Examples, EveryMethodHasOne) {
   for (const Params& message : every_message()) {

@@ -28,12 +28,19 @@ std::vector<Params> full_messages() {
   BindingEdit binding;
   binding.id = "b1";
   binding.sensor = "liberty:2";
-  binding.goal = "g1";
+  binding.to = BindingTarget{"g1", ""};
   binding.axes = Axes{true, false, true};
   binding.mode = Binding::Mode::relative;
   binding.scale = -2.5;
   binding.label = Patched<std::string>::reset();
   binding.user = std::string("7");
+  ObjectEdit object;
+  object.id = "chair";
+  object.position = Vec3(0.1, 1.0 / 3.0, -1e-9);
+  object.rotation = quat_from_xyzw(0.5, 0.5, 0.5, 0.5);
+  object.shapes = std::vector<Shape>{{Shape::Kind::box, {0, 0, 0.2}, {0.2, 0.2, 0.02}, 0.0}};
+  object.label = std::string("blue");
+  object.user = std::string("[1]");
   FigureSet figure{"body", Patched<std::string>::reset(), 1.8, *tempus(1.8), std::string("Ana"), std::string("[]")};
   SolverSet solver{std::string("reach_tree"), 400, Patched<int>::reset()};
   Solve solve;
@@ -49,7 +56,16 @@ std::vector<Params> full_messages() {
   batch.start = Start{Start::Kind::current, {}};
   batch.problems = {{solve, {}, ""}, {{}, Error{"missing_field", "", "", ""}, R"({"goal":[]})"}};
   batch.progress = true;
-  return {SessionHello{1, {"posectl", "0.1.0"}, "ana"},
+  EditApply several;
+  several.edits.push_back({7, GoalSet{goal}});
+  several.edits.push_back({{}, GoalClear{"body"}});
+  several.label = "tidy up";
+  return {SessionHello{1, {"posectl", "0.1.0"}, "ana", "8c1f"},
+          GoalGrab{"g1", true},
+          GoalRelease{"g1", true},
+          several,
+          EditUndo{12},
+          EditHistory{7},
           figure,
           FigureGet{"body"},
           FigureRemove{"body"},
@@ -59,6 +75,9 @@ std::vector<Params> full_messages() {
           GoalGet{"g1"},
           GoalRemove{"g1"},
           GoalClear{"body"},
+          ObjectSet{object},
+          ObjectGet{"chair"},
+          ObjectRemove{"chair"},
           BindingSet{binding},
           BindingGet{"b1"},
           BindingRemove{"b1"},
@@ -92,7 +111,7 @@ void expect_round_trip(const Params& message) {
 
 TEST(Requests, EveryMethodComesThrough) {
   const std::vector<Params> messages = every_message();
-  ASSERT_EQ(messages.size(), 37u);
+  ASSERT_EQ(messages.size(), 47u);
   for (const Params& message : messages) expect_round_trip(message);
 }
 
@@ -144,12 +163,12 @@ TEST(Requests, CallQuotesAMethodOfAnyBytes) {
 
 TEST(Requests, EncodingLeavesTheMessageAlone) {
   BindingEdit edit;
-  edit.goal = "g1";
+  edit.to = BindingTarget{"a goal whose name is a string of its own on the heap", ""};
   const Params message = BindingSet{edit};
-  const std::string* before = &*std::get<BindingSet>(message).edit.goal;
+  const std::string* before = &std::get<BindingSet>(message).edit.to->goal;
   const char* text = before->data();
   (void)encode_request(1, message);
-  EXPECT_EQ(std::get<BindingSet>(message).edit.goal, "g1");
+  EXPECT_EQ(*before, edit.to->goal);
   EXPECT_EQ(before->data(), text);
 }
 

@@ -124,6 +124,7 @@ SCENE = {
                  "relative_to": {"sensor": "liberty:2"}},
         "face": {"figure": "body", "at": "head", "aim": {"axis": [2, 0, 0], "direction": [0, 1, 0]},
                  "relative_to": {"segment": "neck"}},
+        "seat": {"figure": "body", "at": "lower_torso", "position": [0, 0, 0.1], "relative_to": {"object": "chair"}},
         "table": {"figure": "body", "at": "left_hand", "plane": {"point": [0, 0, 1], "normal": [0, 0, 3], "side": "above"}},
         "rail": {"figure": "body", "at": "left_hand", "line": {"point": [0, 0, 1], "direction": [0, 1, 0]}},
         "apart": {"figure": "body", "at": "left_hand", "distance": {"to": "head", "length": 0.3, "compare": "at_least"}},
@@ -131,9 +132,13 @@ SCENE = {
         "calm": {"figure": "body", "posture": {"pose": "start"}},
         "bend": {"figure": "body", "posture": {"joints": {"left_elbow": {"deviation": 1}, "waist": [0, 0, 0, 1]}}},
         "shut": {"figure": "cabinet", "posture": {"joints": {"j1": 0.2, "j2": [0.1]}}}},
-    "objects": {}, "cameras": {},
+    "objects": {"chair": {"position": [1, 0, 0.5], "quat_xyzw": [0, 0, 0, 1], "label": "blue", "user": {"a": 1},
+                          "shape": [{"kind": "box", "center": [0, 0, 0], "half_size": [0.2, 0.2, 0.02]}]},
+                "table": {"position": [0, 0, 0]}},
+    "cameras": {},
     "bindings": {"b1": {"sensor": "simulated:1", "to": {"goal": "g1"}, "axes": ["x", "z"], "mode": "relative",
-                        "scale": -2, "label": ""}},
+                        "scale": -2, "label": ""},
+                 "b2": {"sensor": "simulated:2", "to": {"object": "table"}, "axes": ["x", "rx", "ry", "rz"]}},
 }
 
 DOOR = "/segments/1"
@@ -166,7 +171,11 @@ BROKEN_BALLS = [  # a path of BALLS
 ]
 BROKEN_SCENES = [  # a path of SCENE
     ("/format", "posed.scene/2"), ("/format", NONE), ("/figures", NONE), ("/goals", NONE), ("/bindings", NONE),
-    ("/figures", []), ("/surplus", 1), ("/objects", {"chair": {}}), ("/cameras", {"main": {}}),
+    ("/figures", []), ("/surplus", 1), ("/objects", []), ("/objects/chair/position", NONE),
+    ("/objects/chair/position", [0, 0]), ("/objects/chair/quat_xyzw", [0, 0, 0]), ("/objects/chair/surplus", 1),
+    ("/objects/chair/shape", [{"kind": "ball"}]), ("/objects/chair/shape/0/half_size", [0.2, -0.2, 0.02]),
+    ("/objects/table/position", [0, 0, 2e6]), ("/goals/seat/relative_to", {"object": "a b"}),
+    ("/bindings/b2/to", {"object": "table", "goal": "g1"}), ("/bindings/b2/axes", ["rx"]), ("/bindings/b2/to", {}), ("/cameras", {"main": {}}),
     ("/figures/a b", {"template": "tempus"}), ("/figures/body/template", "robot"), ("/figures/body/template", NONE),
     ("/figures/body/stature", 3), ("/figures/body/surplus", 1), ("/figures/body/document", HINGED),
     ("/figures/cabinet/q", ["0.5", 0.1]), ("/figures/cabinet/q", [1e7, 0]),
@@ -178,7 +187,7 @@ BROKEN_SCENES = [  # a path of SCENE
     ("/goals/g1/kind", "aim"), ("/goals/g1/aim", {"axis": [1, 0, 0], "point": [0, 0, 0]}), ("/goals/g1/position", NONE),
     ("/goals/g1/weight", {"position": 1, "orientation": 1}), ("/goals/hold/weight", {"position": 1}),
     ("/goals/hold/weight/orientation", -1), ("/goals/hold/kind", "position"), ("/goals/hold/relative_to/segment", NONE),
-    ("/goals/hold/relative_to", {"object": "chair"}), ("/goals/hold/relative_to/sensor", "liberty:1"),
+    ("/goals/hold/relative_to/object", "chair"), ("/goals/hold/relative_to/sensor", "liberty:1"),
     ("/goals/look/relative_to/sensor", "liberty"), ("/goals/turn/orientation", {}),
     ("/goals/turn/orientation/quat_xyzw", [0, 0, 0, 2]), ("/goals/look/aim/axis", [0, 0, 0]),
     ("/goals/look/aim/point", NONE), ("/goals/look/aim/direction", [1, 0, 0]), ("/goals/look/at", NONE),
@@ -194,7 +203,7 @@ BROKEN_SCENES = [  # a path of SCENE
     ("/goals/-g", {"figure": "body", "at": "head", "position": [0, 0, 0]}), ("/bindings/b1/sensor", NONE),
     ("/bindings/b1/sensor", "simulated"), ("/bindings/b1/sensor", "simulated:0"),
     ("/bindings/b1/sensor", "simulated:257"), ("/bindings/b1/sensor", "a b:1"), ("/bindings/b1/to", NONE),
-    ("/bindings/b1/to", {"joint": "waist"}), ("/bindings/b1/to/surplus", 1), ("/bindings/b1/axes", ["rx"]),
+    ("/bindings/b1/to", {"joint": "waist"}), ("/bindings/b1/to/surplus", 1), ("/bindings/b1/axes", ["rx", "ry", "rz"]),
     ("/bindings/b1/axes", "x"), ("/bindings/b1/mode", "both"), ("/bindings/b1/scale", 1001),
     ("/bindings/b1/clutch", {"button": 0}), ("/bindings/b1/surplus", 1),
 ]

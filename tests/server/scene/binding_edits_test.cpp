@@ -29,10 +29,10 @@ TEST_F(BindingEdits, OnlyTheNamedFieldsChangeAndNullRestores) {
   ASSERT_TRUE(scene.set_binding(first, {}));
   BindingEdit retarget;
   retarget.id = "b1";
-  retarget.goal = "g2";
+  retarget.to = BindingTarget{"g2", ""};
   expect_edited("b1", 2, [&] { return scene.set_binding(retarget, {}); });
   const Binding& kept = scene.bindings().at("b1").binding;
-  EXPECT_EQ(kept.goal, "g2");
+  EXPECT_EQ(kept.to.goal, "g2");
   EXPECT_FALSE(kept.axes.y);
   EXPECT_EQ(kept.mode, Binding::Mode::relative);
   EXPECT_EQ(kept.scale, 2.0);
@@ -58,7 +58,7 @@ TEST_F(BindingEdits, ANewBindingNeedsASensorAndAGoal) {
   no_sensor.sensor.reset();
   expect_refused("missing_field", "/sensor", [&] { return scene.set_binding(no_sensor, {}); });
   BindingEdit no_goal = binding_edit("b1", "g1");
-  no_goal.goal.reset();
+  no_goal.to.reset();
   expect_refused("missing_field", "/to", [&] { return scene.set_binding(no_goal, {}); });
   expect_refused("unknown_goal", "/to/goal", [&] { return scene.set_binding(binding_edit("b1", "g9"), {}); });
 }

@@ -54,7 +54,7 @@ TEST_F(Load, RefusesADocumentWhole) {
   refused("unknown_segment", "/goals/g1/at", [](auto& d) { d.goals["g1"].at.segment = "wing"; });
   refused("out_of_range", "/goals/g1/weight", [](auto& d) { d.goals["g1"].weight = -1.0; });
   refused("bad_id", "/goals/.g/id", [](auto& d) { d.goals[".g"] = d.goals["g1"]; });
-  refused("unknown_goal", "/bindings/b1/to/goal", [](auto& d) { d.bindings["b1"].goal = "g"; });
+  refused("unknown_goal", "/bindings/b1/to/goal", [](auto& d) { d.bindings["b1"].to.goal = "g"; });
   refused("unknown_sensor", "/bindings/b1/sensor", [](auto& d) { d.bindings["b1"].sensor = "simulated"; });
   refused("bad_id", "/bindings/-b/id", [](auto& d) { d.bindings["-b"] = d.bindings["b1"]; });
   EXPECT_EQ(target("g1"), Vec3(1, 2, 3));

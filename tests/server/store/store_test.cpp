@@ -152,13 +152,13 @@ TEST_F(StoreTest, ANewerFormatIsRefusedAndUntouched) {
     Store store(folder);
     ASSERT_TRUE(save(store, "monday", "document"));
   }
-  sql("PRAGMA user_version = 2");
+  sql("PRAGMA user_version = 3");
   const std::string before = bytes(folder / "posed.db");
   const std::string why = why_not(folder);
   EXPECT_NE(why.find("newer posed"), std::string::npos) << why;
   EXPECT_NE(why.find("--data"), std::string::npos) << why;
   EXPECT_TRUE(bytes(folder / "posed.db") == before);
-  sql("PRAGMA user_version = 1");
+  sql("PRAGMA user_version = 2");
   Store again(folder);
   EXPECT_EQ(*load(again, "monday"), "document");
 }

@@ -1,0 +1,76 @@
+// The entities of a scene: their documents, with names resolved, and what sensors and the solver say of them. Plain
+// values.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/scene.h"
+#include "server/scene/sensor_name.h"
+#include "server/solver/body_tree.h"
+#include "server/solver/spring_goal.h"
+
+namespace posed {
+
+using Revision = std::uint64_t;
+
+// Names what an entity says: the scene's revision that made it so. An edit that is taken back brings the number back.
+using Content = std::uint64_t;
+inline constexpr Content kAtStart = ~Content{0};
+
+struct EntityState {
+  Revision revision = 0;       // the entity's own; only grows
+  Content content = kAtStart;  // never 0
+  std::string by;              // who made it what it is
+};
+
+struct SceneFigure : EntityState {
+  FigureEntry entry;  // its q is empty: the values are in `q`
+  std::shared_ptr<const BodyTree> tree;
+  std::vector<double> q;
+  Content pose = kAtStart;  // the last edit that had to do with it, its goals among that
+  std::string posed_by;
+};
+
+struct SceneGoal : EntityState {
+  Goal goal;
+  AttachedPoint at;        // of kinds that take hold
+  Spring spring;           // the payload, its names resolved
+  int base_segment = -1;   // relative to a segment: which, of the figure goal.relative_to.figure
+  SensorName base_sensor;  // relative to a sensor
+  // What sensors say; no part of the document.
+  std::optional<Vec3> live;                  // where a bound sensor has the goal's position, in the world
+  std::optional<Transform> world_from_base;  // relative to an object, or to a sensor that has been heard
+  bool base_moves = false;                   // sensors move the base
+
+  // Of position and pose goals.
+  Vec3 target() const {
+    const Vec3* position = position_of(goal.payload);
+    return live ? *live : position ? *position : kZero;
+  }
+  bool follows_sensors() const { return live || base_moves; }
+  bool rides_on(const std::string& object) const {
+    return goal.relative_to.kind == GoalBase::Kind::object && goal.relative_to.object == object;
+  }
+};
+
+struct SceneObject : EntityState {
+  Object object;                  // its rotation has unit length
+  std::optional<Transform> live;  // where a bound sensor has it; no part of the document
+
+  const Transform& world_from_object() const { return live ? *live : object.world_from_object; }
+};
+
+struct SceneBinding : EntityState {
+  Binding binding;
+  SensorName sensor;
+  struct Anchor {
+    Transform sensor, target;
+  };
+  std::optional<Anchor> anchor;  // relative mode: where both stood at the first sample
+};
+
+}  // namespace posed

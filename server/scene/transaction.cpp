@@ -1,0 +1,328 @@
+// Several edits as one, and edits taken back.
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "server/scene/scene.h"
+#include "server/solver/kinematics.h"
+
+namespace posed {
+namespace {
+
+template <class Entity>
+using Changed = std::map<std::string, ChangedEntity<Entity>>;
+template <class Entity>
+using Entities = std::map<std::string, Entity>;
+
+// Says of what is kept what has come of it, and forgets what is as it was.
+template <class Entity>
+void finish(Changed<Entity>& part, Entities<Entity>& entities, Content content, const std::string& by) {
+  for (auto it = part.begin(); it != part.end();) {
+    const auto present = entities.find(it->first);
+    const bool here = present != entities.end();
+    const std::optional<Entity>& before = it->second.other;
+    if (here ? before && before->revision == present->second.revision : !before) {
+      it = part.erase(it);
+      continue;
+    }
+    if (here) {
+      present->second.content = content;
+      present->second.by = by;
+    }
+    it->second.expected = here ? content : 0;
+    ++it;
+  }
+}
+
+template <class Entity>
+void restore(Changed<Entity>& part, Entities<Entity>& entities) {
+  for (auto& [id, kept] : part) {
+    if (kept.other)
+      entities.insert_or_assign(id, std::move(*kept.other));
+    else
+      entities.erase(id);
+  }
+}
+
+template <class Entity>
+std::optional<Conflict> compare(const Changed<Entity>& part, const Entities<Entity>& entities, const char* what) {
+  for (const auto& [id, changed] : part) {
+    const auto present = entities.find(id);
+    const Content content = present == entities.end() ? 0 : present->second.content;
+    if (content == changed.expected) continue;
+    return Conflict{std::string(what) + " " + id, std::string("/") + what + "s/" + id,
+                    present == entities.end() ? "" : present->second.by, content == 0 ? "removed" : "changed"};
+  }
+  return {};
+}
+
+// What is to stand there and what stands there change places. Revisions only grow.
+template <class Entity>
+void swap(Changed<Entity>& part, Entities<Entity>& entities) {
+  for (auto& [id, changed] : part) {
+    const auto present = entities.find(id);
+    std::optional<Entity> gone;
+    if (present != entities.end()) {
+      gone = std::move(present->second);
+      entities.erase(present);
+    }
+    if (changed.other) {
+      changed.other->revision = std::max(changed.other->revision, gone ? gone->revision : 0) + 1;
+      entities.emplace(id, *changed.other);
+    }
+    changed.expected = changed.other ? changed.other->content : 0;
+    changed.other = std::move(gone);
+  }
+}
+
+// Figures that the goal, before or after, has to do with.
+void concern(const SceneGoal& goal, std::set<std::string>& figures) {
+  figures.insert(goal.goal.figure);
+  if (goal.goal.relative_to.kind == GoalBase::Kind::segment) figures.insert(goal.goal.relative_to.figure);
+}
+
+}  // namespace
+
+void Scene::begin() {
+  open_.emplace(Open{revision_, {}});
+}
+
+Revision Scene::count() {
+  if (!open_ || revision_ == open_->revision) ++revision_;
+  return revision_;
+}
+
+template <class Entity>
+void Scene::keep(Changed<Entity> Change::*part, const Entities<Entity>& entities, const std::string& id) {
+  if (!open_) return;
+  const auto [place, is_new] = (open_->before.*part).try_emplace(id);
+  if (!is_new) return;
+  if (const auto found = entities.find(id); found != entities.end()) place->second.other = found->second;
+}
+template void Scene::keep<SceneFigure>(Changed<SceneFigure> Change::*, const Entities<SceneFigure>&,
+                                       const std::string&);
+template void Scene::keep<SceneObject>(Changed<SceneObject> Change::*, const Entities<SceneObject>&,
+                                       const std::string&);
+template void Scene::keep<SceneGoal>(Changed<SceneGoal> Change::*, const Entities<SceneGoal>&, const std::string&);
+template void Scene::keep<SceneBinding>(Changed<SceneBinding> Change::*, const Entities<SceneBinding>&,
+                                        const std::string&);
+
+void Scene::keep_pose(const std::string& id) {
+  if (!open_) return;
+  const SceneFigure& figure = figures_.at(id);
+  const auto [place, is_new] = open_->before.poses.try_emplace(id);
+  if (!is_new) return;
+  place->second = {figure.q, figure.pose, 0, true, figure.revision};
+  // A figure that is kept already has the values from before.
+  if (const auto kept = open_->before.figures.find(id); kept != open_->before.figures.end() && kept->second.other)
+    place->second.q = kept->second.other->q;
+}
+
+Change Scene::commit(const std::string& by) {
+  Change change = std::move(open_->before);
+  open_.reset();
+  for (auto& [id, pose] : change.poses) {
+    const auto kept = change.figures.find(id);
+    if (kept != change.figures.end() && kept->second.other) kept->second.other->q = pose.q;
+  }
+  finish(change.figures, figures_, revision_, by);
+  finish(change.objects, objects_, revision_, by);
+  finish(change.goals, goals_, revision_, by);
+  finish(change.bindings, bindings_, revision_, by);
+
+  std::set<std::string> concerned;
+  const auto concern_goal = [&](const std::string& id) {
+    if (const auto goal = goals_.find(id); goal != goals_.end()) concern(goal->second, concerned);
+  };
+  for (const auto& [id, pose] : change.poses) concerned.insert(id);
+  for (const auto& [id, figure] : change.figures) concerned.insert(id);
+  for (const auto& [id, goal] : change.goals) {
+    if (goal.other) concern(*goal.other, concerned);
+    concern_goal(id);
+  }
+  for (const auto& [id, goal] : goals_) {
+    if (goal.goal.relative_to.kind == GoalBase::Kind::object && change.objects.contains(goal.goal.relative_to.object))
+      concern(goal, concerned);
+  }
+  for (const auto& [id, binding] : change.bindings) {
+    if (binding.other) concern_goal(binding.other->binding.to.goal);
+    if (const auto now = bindings_.find(id); now != bindings_.end()) concern_goal(now->second.binding.to.goal);
+  }
+  for (const std::string& id : concerned) {
+    const auto figure = figures_.find(id);
+    if (figure == figures_.end()) {
+      change.poses.erase(id);
+      continue;
+    }
+    const auto [pose, is_new] = change.poses.try_emplace(id);
+    if (is_new) {
+      pose->second.q = figure->second.q;
+      pose->second.other = figure->second.pose;
+      if (const auto kept = change.figures.find(id); kept != change.figures.end() && kept->second.other) {
+        pose->second.q = kept->second.other->q;
+        pose->second.other = kept->second.other->pose;
+      }
+    }
+    pose->second.expected = figure->second.pose = revision_;
+    figure->second.posed_by = by;
+  }
+  return change;
+}
+
+void Scene::rollback() {
+  Open open = std::move(*open_);
+  open_.reset();
+  restore(open.before.figures, figures_);
+  for (const auto& [id, pose] : open.before.poses) {
+    const auto figure = figures_.find(id);
+    if (figure == figures_.end()) continue;
+    figure->second.q = pose.q;
+    figure->second.revision = std::min(figure->second.revision, pose.revision);
+  }
+  restore(open.before.objects, objects_);
+  restore(open.before.goals, goals_);
+  restore(open.before.bindings, bindings_);
+  revision_ = open.revision;
+  for (const auto& [id, object] : objects_) carry(object);
+}
+
+std::optional<Conflict> Scene::changed_since(const Change& change) const {
+  if (auto c = compare(change.figures, figures_, "figure")) return c;
+  if (auto c = compare(change.objects, objects_, "object")) return c;
+  if (auto c = compare(change.goals, goals_, "goal")) return c;
+  if (auto c = compare(change.bindings, bindings_, "binding")) return c;
+  for (const auto& [id, pose] : change.poses) {
+    const auto figure = figures_.find(id);
+    if (!pose.asked || (figure != figures_.end() && figure->second.pose == pose.expected)) continue;
+    const bool here = figure != figures_.end();
+    return Conflict{"the pose of figure " + id, "/figures/" + id, here ? figure->second.posed_by : "",
+                    here ? "changed" : "removed"};
+  }
+  return {};
+}
+
+bool Scene::stands(const Change& change, const Change& next) const {
+  const auto all = [](const auto& part, const auto& later, const auto& entities) {
+    return std::all_of(part.begin(), part.end(), [&](const auto& entry) {
+      if (later.contains(entry.first)) return true;
+      const auto now = entities.find(entry.first);
+      return (now == entities.end() ? 0 : now->second.content) == entry.second.expected;
+    });
+  };
+  return all(change.figures, next.figures, figures_) && all(change.objects, next.objects, objects_) &&
+         all(change.goals, next.goals, goals_) && all(change.bindings, next.bindings, bindings_);
+}
+
+void Scene::exchange(Change& change) {
+  // Where the figures' poses are nobody else's, they change places, too. Else they stay.
+  std::map<std::string, std::pair<std::vector<double>, Content>> present;
+  for (const auto& [id, pose] : change.poses) {
+    if (const auto figure = figures_.find(id); figure != figures_.end())
+      present[id] = {figure->second.q, figure->second.pose};
+  }
+  swap(change.figures, figures_);
+  swap(change.objects, objects_);
+  swap(change.goals, goals_);
+  swap(change.bindings, bindings_);
+  for (auto& [id, pose] : change.poses) {
+    const auto now = figures_.find(id);
+    const auto was = present.find(id);
+    if (now == figures_.end() || was == present.end()) continue;  // it takes its pose along
+    SceneFigure& figure = now->second;
+    if (was->second.second == pose.expected) {
+      figure.q = std::exchange(pose.q, was->second.first);
+      figure.pose = pose.other;
+      pose.other = std::exchange(pose.expected, figure.pose);
+      if (!change.figures.contains(id) && pose.asked) ++figure.revision;
+    } else {
+      if (check_q(*figure.tree, was->second.first)) figure.q = was->second.first;
+      figure.pose = was->second.second;
+    }
+  }
+}
+
+// Names find their places anew: what one edit brought back, another may have taken away.
+std::optional<Conflict> Scene::refit(const Change& change) {
+  const auto gone = [](const char* what, const std::string& id) {
+    return Conflict{std::string(what) + " " + id, std::string("/") + what + "s/" + id, "", "removed"};
+  };
+  std::set<std::string> bound;  // of goals and objects
+  for (const auto& [id, binding] : bindings_) bound.insert(binding.binding.to.goal + "/" + binding.binding.to.object);
+  for (auto& [id, goal] : goals_) {
+    if (!bound.contains(id + "/")) goal.live.reset();
+    const GoalBase& base = goal.goal.relative_to;
+    if (!figures_.contains(goal.goal.figure) ||
+        (base.kind == GoalBase::Kind::segment && !figures_.contains(base.figure)) ||
+        (base.kind == GoalBase::Kind::object && !objects_.contains(base.object))) {
+      const bool figure_gone = !figures_.contains(goal.goal.figure);
+      if (!change.goals.contains(id)) return Conflict{"goal " + id, "/goals/" + id, goal.by, "changed"};
+      if (!figure_gone && base.kind == GoalBase::Kind::object) return gone("object", base.object);
+      return gone("figure", figure_gone ? goal.goal.figure : base.figure);
+    }
+    if (!change.goals.contains(id) && !change.figures.contains(goal.goal.figure) &&
+        !change.figures.contains(base.figure))
+      continue;
+    Result<SceneGoal> again = make_goal(goal.goal, figures_);
+    if (!again) {
+      const SceneFigure& figure = figures_.at(goal.goal.figure);
+      if (!change.goals.contains(id)) return Conflict{"goal " + id, "/goals/" + id, goal.by, "changed"};
+      return Conflict{"figure " + goal.goal.figure, "/figures/" + goal.goal.figure, figure.by, "changed"};
+    }
+    static_cast<EntityState&>(*again) = goal;
+    again->live = goal.live;
+    if (base.kind == GoalBase::Kind::sensor) {
+      again->world_from_base = goal.world_from_base;
+      again->base_moves = goal.base_moves;
+    }
+    goal = std::move(*again);
+  }
+  for (auto& [id, object] : objects_) {
+    if (!bound.contains("/" + id)) object.live.reset();
+    carry(object);
+  }
+  for (auto& [id, binding] : bindings_) {
+    const BindingTarget& to = binding.binding.to;
+    if (make_binding(binding.binding)) {
+      if (change.bindings.contains(id)) binding.anchor.reset();
+      continue;
+    }
+    if (!change.bindings.contains(id)) return Conflict{"binding " + id, "/bindings/" + id, binding.by, "changed"};
+    if (to.object.empty() && !goals_.contains(to.goal)) return gone("goal", to.goal);
+    if (!to.object.empty() && !objects_.contains(to.object)) return gone("object", to.object);
+    for (const auto& [other_id, other] : bindings_) {
+      if (other_id != id && other.binding.to == to)
+        return Conflict{"binding " + other_id, "/bindings/" + other_id, other.by, "changed"};
+    }
+    return Conflict{"goal " + to.goal, "/goals/" + to.goal, goals_.at(to.goal).by, "changed"};
+  }
+  return {};
+}
+
+std::optional<Conflict> Scene::revert(Change& change) {
+  if (auto conflict = changed_since(change)) return conflict;
+  begin();
+  for (const auto& [id, changed] : change.figures) keep_figure(id);
+  for (const auto& [id, changed] : change.objects) keep_object(id);
+  for (const auto& [id, changed] : change.goals) keep_goal(id);
+  for (const auto& [id, changed] : change.bindings) keep_binding(id);
+  for (const auto& [id, changed] : change.poses) {
+    if (figures_.contains(id)) keep_pose(id);
+  }
+  // Goals that are fitted to a figure which changes.
+  for (const auto& [id, goal] : goals_) {
+    if (change.figures.contains(goal.goal.figure) || change.figures.contains(goal.goal.relative_to.figure))
+      keep_goal(id);
+  }
+  Change taken_back = change;
+  exchange(taken_back);
+  if (auto conflict = refit(taken_back)) {
+    rollback();
+    return conflict;
+  }
+  change = std::move(taken_back);
+  count();
+  open_.reset();
+  return {};
+}
+
+}  // namespace posed

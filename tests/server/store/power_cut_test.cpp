@@ -1,0 +1,102 @@
+// What the store has answered survives a power cut at whatever moment, and what it has not is there whole or not at
+// all.
+#include "tests/support/power_cut.h"
+
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <future>
+#include <random>
+
+#include "server/store/store.h"
+
+namespace posed {
+namespace {
+
+namespace fs = std::filesystem;
+
+class PowerCutTest : public ::testing::Test {
+ protected:
+  PowerCutTest() {
+    std::string name = (fs::temp_directory_path() / "posed-power-XXXXXX").string();
+    folder = ::mkdtemp(name.data());
+  }
+  ~PowerCutTest() override { fs::remove_all(folder); }
+
+  // The n-th state: three parts say the same number, so that a state that is torn shows.
+  static StoredChanges state(std::uint64_t n) {
+    StoredChanges changes;
+    changes.revision = n;
+    const std::string text = "{\"n\":" + std::to_string(n) + ",\"pad\":\"" + std::string(n * 37 % 3000, 'x') + "\"}";
+    for (const char* path : {"/figures/body", "/figures/body/q", "/goals/g1"}) changes.set.push_back({path, n, text});
+    if (n % 3 == 0)
+      changes.removed.push_back("/goals/third");
+    else
+      changes.set.push_back({"/goals/third", n, text});
+    changes.once.push_back({"uuid-" + std::to_string(n), "goal.set", std::to_string(n)});
+    return changes;
+  }
+
+  static Status commit(Store& store, StoredChanges changes) {
+    std::promise<Status> answer;
+    store.commit(std::move(changes), [&](Status status) { answer.set_value(std::move(status)); });
+    return answer.get_future().get();
+  }
+
+  static void expect_whole(const StoredScene& scene) {
+    if (scene.revision == 0) return;
+    const StoredChanges expected = state(scene.revision);
+    ASSERT_EQ(scene.parts.size(), expected.set.size());
+    for (const StoredPart& part : scene.parts) {
+      EXPECT_EQ(part.revision, scene.revision) << part.path;
+      EXPECT_EQ(part.document, expected.set[0].document) << part.path;
+    }
+    ASSERT_FALSE(scene.once.empty());
+    EXPECT_EQ(scene.once.back().result, std::to_string(scene.revision));
+  }
+
+  fs::path folder;
+};
+
+TEST_F(PowerCutTest, WhatWasAnsweredSurvivesACutAtAnyMoment) {
+  std::mt19937 random{7};
+  for (unsigned seed = 1; seed <= 150; ++seed) {
+    SCOPED_TRACE(seed);
+    test::PowerCut power(seed);
+    std::uint64_t answered = 0, asked = 0;
+    {
+      Store store(folder);
+      expect_whole(store.live());
+      answered = asked = store.live().revision;
+      power.cut_after(1 + random() % 120);
+      while (!power.cut()) {
+        if (commit(store, state(++asked))) answered = asked;
+      }
+    }
+    power.restart();
+    const Store store(folder);
+    EXPECT_GE(store.live().revision, answered);
+    EXPECT_LE(store.live().revision, asked);
+    expect_whole(store.live());
+    if (HasFailure()) return;
+  }
+}
+
+TEST_F(PowerCutTest, AFullDiskIsAnErrorAndNothingElse) {
+  test::PowerCut power(1);
+  Store store(folder);
+  ASSERT_TRUE(commit(store, state(1)));
+  power.full_after(2000);
+  const Status full = commit(store, state(2));
+  ASSERT_FALSE(full);
+  EXPECT_EQ(full.error().code, "store_failed");
+  EXPECT_NE(full.error().message.find("full"), std::string::npos) << full.error().message;
+  ASSERT_FALSE(commit(store, state(3)));
+  power.full_after(0);
+  EXPECT_TRUE(commit(store, state(4))) << "there is room again";
+}
+
+}  // namespace
+}  // namespace posed
