@@ -295,5 +295,61 @@ TEST_F(EditingTest, EditsThatAreDiscardedHaveNeverBeen) {
   EXPECT_EQ(editing.undo(by("ben")).error().code, "nothing_to_undo");
 }
 
+// An open fault: after some orders of edits, gestures and redos two editors are left with steps that are refused.
+// Whatever two do in whatever order, who takes all of theirs back, the other's undone first, is where they began.
+TEST_F(EditingTest, DISABLED_EverythingTakenBackIsTheBeginning) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    std::mt19937 random{seed};
+    Scene fresh;
+    scene = fresh;
+    ASSERT_TRUE(scene.set_figure(tempus_entry("body"), {}));
+    Editing own{scene};
+    const std::string before = document();
+    const auto pick = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+    std::vector<std::string> names{"ana", "ben"};
+    for (int i = 0; i < 200; ++i) {
+      const EditBy who = by(names[static_cast<std::size_t>(pick(2))], pick(3) ? "" : "g" + std::to_string(pick(3)));
+      const std::string goal = "g" + std::to_string(pick(4)), object = "o" + std::to_string(pick(2));
+      (void)own.edit(who, [&](Scene& s) -> Result<Edited> {
+        switch (pick(8)) {
+          case 0:
+            return s.remove_goal(goal, {});
+          case 1:
+            return s.set_object({object, Vec3(pick(9), 0, 0), {}, {}, {}, {}}, {});
+          case 2:
+            return s.remove_object(object, {});
+          case 3: {
+            GoalEdit edit = goal_edit(goal, "head");
+            edit.relative_to = GoalBase{GoalBase::Kind::object, "", "", "", object};
+            return s.set_goal(edit, {});
+          }
+          case 4:
+            return s.set_binding(binding_edit("b" + std::to_string(pick(2)), goal), {});
+          case 5:
+            return s.set_figure(tempus_entry(pick(2) ? "body" : "other", 1.5 + 0.1 * pick(4)), {});
+          case 6:
+            return s.remove_figure("other", {});
+          default:
+            return s.set_goal(goal_edit(goal, pick(2) ? "right_hand" : "left_hand", {pick(9) * 0.1, 0, 1}), {});
+        }
+      });
+      if (pick(5) == 0) (void)own.undo(who);
+      if (pick(8) == 0) (void)own.redo(who);
+    }
+    for (bool moved = true; moved;) {
+      moved = false;
+      for (const std::string& name : names) {
+        while (own.undo(by(name))) moved = true;
+      }
+    }
+    for (const std::string& name : names) {
+      const auto stuck = own.undo(by(name));
+      EXPECT_EQ(stuck.error().code, "nothing_to_undo") << name << ": " << stuck.error().message << " " << seed;
+    }
+    for (const Step& step : own.history().steps()) EXPECT_TRUE(step.undone) << seed << ": step " << step.number;
+    EXPECT_EQ(document(), before) << seed;
+  }
+}
+
 }  // namespace
 }  // namespace posed
