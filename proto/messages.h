@@ -36,7 +36,7 @@ struct SessionHello {
   Software client;
   std::string user;
   std::string token = {};
-  std::string resume;  // of an earlier session, to be the same editor again
+  std::string resume = {};  // of an earlier session, to be the same editor again
 };
 struct SessionPing {};
 struct SessionStatus {};

@@ -60,7 +60,7 @@ std::vector<Params> full_messages() {
   several.edits.push_back({7, GoalSet{goal}});
   several.edits.push_back({{}, GoalClear{"body"}});
   several.label = "tidy up";
-  return {SessionHello{1, {"posectl", "0.1.0"}, "ana", "8c1f"},
+  return {SessionHello{1, {"posectl", "0.1.0"}, "ana", "", "8c1f"},
           GoalGrab{"g1", true},
           GoalRelease{"g1", true},
           several,
