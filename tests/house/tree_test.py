@@ -50,6 +50,7 @@ def complaints(top):
 
 
 SOUND = {"common/a.h": "#pragma once\nint a();\n", "README.md": "See https://example.org/home/page.\n"}
+SOUND |= {path: "#pragma once\n" + "\n" * MOST_LINES for path in LONG}
 FAULTS = [
     ({"common/a.h": "int a();\n"}, "no #pragma once"),
     ({"common/a-inl.h": "#pragma once\n"}, "no #pragma once"),
