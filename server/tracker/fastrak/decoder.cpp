@@ -3,18 +3,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "server/tracker/error_letter.h"
 #include "server/tracker/fastrak/reply.h"
 
 namespace posed::tracker {
 namespace {
 
 constexpr std::size_t kHeader = 3;
-// A receiver that is not plugged in: its numbers mean nothing, so it is absent.
-constexpr char kNoSignal = 'l';
-
-bool is_letter(std::uint8_t c) {
-  return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
-}
 
 }  // namespace
 

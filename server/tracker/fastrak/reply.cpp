@@ -5,16 +5,14 @@
 #include <string>
 #include <string_view>
 
+#include "server/tracker/error_letter.h"
+
 namespace posed::tracker {
 namespace {
 
 constexpr std::size_t kMost = 256;  // the longest that is documented has some 110
 constexpr std::string_view kError = "*ERROR*", kCode = "EC";
 constexpr int kUnnamedError = -1000;
-
-bool is_letter(std::uint8_t c) {
-  return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
-}
 
 int error_of(std::string_view text) {
   if (text.find(kError) == std::string_view::npos) return 0;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "server/tracker/axes.h"
+#include "server/tracker/error_letter.h"
 #include "server/tracker/fastrak/reply.h"
 #include "server/tracker/little_endian.h"
 
@@ -15,8 +16,6 @@ constexpr std::size_t kPacked = 20, kRecord = 17, kGroup = 7;
 constexpr double kMetresPerStep = 1.6632 / 32767.0;
 constexpr double kUnit = 32767.0;
 constexpr char kButtonDown = '@', kButtonUp = '*';
-// A receiver that is not plugged in: its numbers mean nothing, so it is absent.
-constexpr char kNoSignal = 'l';
 
 std::array<std::uint8_t, kRecord> unpack(std::span<const std::uint8_t> packed) {
   std::array<std::uint8_t, kRecord> record{};
@@ -30,10 +29,6 @@ std::array<std::uint8_t, kRecord> unpack(std::span<const std::uint8_t> packed) {
     from += size + 1;
   }
   return record;
-}
-
-bool is_letter(std::uint8_t c) {
-  return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "server/tracker/error_letter.h"
+
 namespace posed::tracker {
 namespace {
 
@@ -61,10 +63,6 @@ constexpr std::string_view kErrorTexts[] = {
     "a firmware upgrade is required",
     "a firmware upgrade is recommended",
 };
-
-bool is_letter(std::uint8_t c) {
-  return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
-}
 
 bool station_or_none(const LibertyHeader& header, int stations) {
   return header.station >= 0 && header.station <= stations;

@@ -4,6 +4,7 @@
 
 #include "server/tracker/fastrak/reply.h"
 #include "server/tracker/fastrak/session.h"
+#include "tests/server/tracker/golden_pose.h"
 #include "tests/support/fastrak_emulator.h"
 #include "tests/support/golden_bytes.h"
 
@@ -11,6 +12,7 @@ namespace posed::tracker {
 namespace {
 
 using test::Bytes;
+using test::expect_golden_pose;
 using test::FastrakEmulator;
 
 Bytes golden(const std::string& name) {
@@ -24,17 +26,6 @@ FastrakDecoder decoder(std::vector<int> items = {2, 11, 16, 0}, bool binary = tr
   format.binary = binary;
   format.metres_per_unit = metres_per_unit;
   return std::move(*FastrakDecoder::make(std::move(format)));
-}
-
-// The pose of the golden files in the world's axes: Y and Z turned round.
-void expect_golden_pose(const Sample& sample, double tolerance) {
-  EXPECT_NEAR(sample.position.x, 0.254, tolerance);
-  EXPECT_NEAR(sample.position.y, 0.0635, tolerance);
-  EXPECT_NEAR(sample.position.z, -0.08255, tolerance);
-  EXPECT_NEAR(sample.rotation.w, 0.871836437, tolerance);
-  EXPECT_NEAR(sample.rotation.x, 0.214679867, tolerance);
-  EXPECT_NEAR(sample.rotation.y, 0.188823735, tolerance);
-  EXPECT_NEAR(sample.rotation.z, -0.397692569, tolerance);
 }
 
 TEST(FastrakDecoder, ReadsTheFactoryList) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "server/tracker/fastrak/session.h"
+#include "tests/server/tracker/golden_pose.h"
 #include "tests/support/fastrak_emulator.h"
 #include "tests/support/golden_bytes.h"
 
@@ -24,13 +25,7 @@ TEST(IsotrakDecoder, ReadsTheListThatIsDriven) {
   EXPECT_EQ(out.frames[0].t_ns, 77);
   const Sample& sample = out.frames[0].samples[0];
   EXPECT_EQ(sample.station, 1);
-  EXPECT_NEAR(sample.position.x, 0.254, 3e-5);
-  EXPECT_NEAR(sample.position.y, 0.0635, 3e-5);
-  EXPECT_NEAR(sample.position.z, -0.08255, 3e-5);
-  EXPECT_NEAR(sample.rotation.w, 0.871836437, 3e-5);
-  EXPECT_NEAR(sample.rotation.x, 0.214679867, 3e-5);
-  EXPECT_NEAR(sample.rotation.y, 0.188823735, 3e-5);
-  EXPECT_NEAR(sample.rotation.z, -0.397692569, 3e-5);
+  test::expect_golden_pose(sample, 3e-5);
   EXPECT_EQ(d.bad_bytes(), 0u);
 }
 

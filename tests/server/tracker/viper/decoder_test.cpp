@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "server/tracker/viper/frame.h"
+#include "tests/server/tracker/golden_pose.h"
 #include "tests/support/golden_bytes.h"
 #include "tests/support/viper_emulator.h"
 
@@ -10,20 +11,11 @@ namespace posed::tracker {
 namespace {
 
 using test::Bytes;
+using test::expect_golden_pose;
 using test::ViperEmulator;
 
 Bytes golden(const std::string& name) {
   return test::golden_bytes(POSED_GOLDEN "/viper", name);
-}
-
-void expect_golden_pose(const Sample& sample, double tolerance) {
-  EXPECT_NEAR(sample.position.x, 0.254, tolerance);
-  EXPECT_NEAR(sample.position.y, 0.0635, tolerance);
-  EXPECT_NEAR(sample.position.z, -0.08255, tolerance);
-  EXPECT_NEAR(sample.rotation.w, 0.871836437, tolerance);
-  EXPECT_NEAR(sample.rotation.x, 0.214679867, tolerance);
-  EXPECT_NEAR(sample.rotation.y, 0.188823735, tolerance);
-  EXPECT_NEAR(sample.rotation.z, -0.397692569, tolerance);
 }
 
 TEST(ViperDecoder, ReadsAPoseFrame) {
