@@ -90,10 +90,8 @@ Result<Edited> Scene::set_binding(const BindingEdit& edit, IfRevision if_revisio
 
   Result<SceneBinding> made = make_binding(std::move(binding));
   if (!made) return made.error();
-  if (before != bindings_.end()) {
-    made->revision = before->second.revision + 1;
-    if (before->second.binding.to != made->binding.to) let_go(before->second.binding.to);
-  }
+  made->revision = next_revision(&Change::bindings, bindings_, id);
+  if (before != bindings_.end() && before->second.binding.to != made->binding.to) let_go(before->second.binding.to);
   const Revision revision = made->revision;
   keep_binding(id);
   bindings_.insert_or_assign(id, std::move(*made));

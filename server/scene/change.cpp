@@ -36,14 +36,17 @@ std::size_t bytes_of(const std::map<std::string, ChangedEntity<Entity>>& part) {
 }
 
 template <class Entity>
-bool joins(const std::map<std::string, ChangedEntity<Entity>>& first,
-           const std::map<std::string, ChangedEntity<Entity>>& next, Revision began) {
+bool touch(const std::map<std::string, ChangedEntity<Entity>>& a,
+           const std::map<std::string, ChangedEntity<Entity>>& b) {
+  return std::any_of(a.begin(), a.end(), [&b](const auto& entry) { return b.contains(entry.first); });
+}
+
+template <class Entity>
+bool follows(const std::map<std::string, ChangedEntity<Entity>>& first,
+             const std::map<std::string, ChangedEntity<Entity>>& next) {
   return std::all_of(next.begin(), next.end(), [&](const auto& entry) {
     const auto before = first.find(entry.first);
-    const Content found = entry.second.other ? entry.second.other->content : 0;
-    // Of what was not there nobody knows since when: it may be another's edit that the step would have to come before.
-    if (before == first.end()) return found != 0 && (found == kAtStart || found < began);
-    return before->second.expected == found;
+    return before == first.end() || before->second.expected == (entry.second.other ? entry.second.other->content : 0);
   });
 }
 
@@ -69,43 +72,46 @@ std::vector<std::string> Change::entities() const {
   name(goals, "/goals/", all);
   name(bindings, "/bindings/", all);
   for (const auto& [figure, pose] : poses) {
-    if (pose.asked) all.push_back("/figures/" + figure + "/q");
+    if (pose.asked && !figures.contains(figure)) all.push_back("/figures/" + figure + "/q");
   }
   return all;
 }
 
 std::size_t Change::bytes() const {
-  std::size_t bytes = bytes_of(figures) + bytes_of(objects) + bytes_of(goals) + bytes_of(bindings);
+  std::size_t bytes = bytes_of(figures) + bytes_of(objects) + bytes_of(goals) + bytes_of(bindings) + print.bytes();
   for (const auto& [figure, pose] : poses) bytes += 128 + pose.q.size() * sizeof(double);
   return bytes;
 }
 
-bool Change::join(const Change& next, Revision began) {
-  if (!joins(figures, next.figures, began) || !joins(objects, next.objects, began) ||
-      !joins(goals, next.goals, began) || !joins(bindings, next.bindings, began))
+bool Change::commutes(const Change& o) const {
+  const bool both_posed = std::any_of(poses.begin(), poses.end(), [&o](const auto& entry) {
+    const auto other = o.poses.find(entry.first);
+    return other != o.poses.end() && entry.second.asked && other->second.asked;
+  });
+  return !both_posed && !touch(figures, o.figures) && !touch(objects, o.objects) && !touch(goals, o.goals) &&
+         !touch(bindings, o.bindings) && !print.clashes(o.print);
+}
+
+bool Change::join(const Change& next) {
+  if (!follows(figures, next.figures) || !follows(objects, next.objects) || !follows(goals, next.goals) ||
+      !follows(bindings, next.bindings))
     return false;
-  const auto between = [this](const auto& entry) {
-    const auto before = poses.find(entry.first);
-    return before != poses.end() && before->second.expected != entry.second.other;
-  };
-  for (const auto& entry : next.poses) {
-    if (between(entry) && (entry.second.asked || poses.at(entry.first).asked)) return false;
-  }
   take_in(figures, next.figures);
   take_in(objects, next.objects);
   take_in(goals, next.goals);
   take_in(bindings, next.bindings);
-  for (const auto& entry : next.poses) {
-    // Another has moved the figure between: its pose will be solved anew, from where it then stands.
-    if (between(entry)) {
-      poses.at(entry.first).expected = 0;
-      continue;
-    }
-    const auto [place, is_new] = poses.try_emplace(entry.first, entry.second);
+  for (const auto& [figure, after] : next.poses) {
+    const auto [place, is_new] = poses.try_emplace(figure, after);
     if (is_new) continue;
-    place->second.expected = entry.second.expected;
-    place->second.asked = place->second.asked || entry.second.asked;
+    ChangedPose& pose = place->second;
+    // Another has had to do with the figure between: its pose will be solved anew, from where it then stands.
+    pose.expected = pose.expected == after.other ? after.expected : 0;
+    if (!after.asked) continue;
+    if (!pose.asked) pose.other_q = after.other_q;
+    pose.expected_q = after.expected_q;
+    pose.asked = true;
   }
+  print.add(next.print);
   return true;
 }
 

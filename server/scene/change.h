@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "server/scene/entities.h"
+#include "server/scene/footprint.h"
 
 namespace posed {
 
@@ -18,12 +19,14 @@ struct ChangedEntity {
   Content expected = 0;         // what must stand there for that; 0: nothing
 };
 
-// The joint values that a figure had: they come back where nobody else's edit has had to do with the figure since.
+// The joint values that a figure had: they come back where nobody else's edit has had to do with the figure since, or
+// where the edit was of the pose itself.
 struct ChangedPose {
   std::vector<double> q;
-  Content other = 0, expected = 0;
-  bool asked = false;     // the edit was of the pose itself
-  Revision revision = 0;  // of the figure, before
+  Content other = 0, expected = 0;      // of the figure's `pose`; expected 0: it does not come back
+  bool asked = false;                   // the edit was of the pose itself
+  Revision revision = 0;                // of the figure, before
+  Content other_q = 0, expected_q = 0;  // of its `posed`, where it was asked
 };
 
 struct Change {
@@ -33,23 +36,25 @@ struct Change {
   std::map<std::string, ChangedEntity<SceneGoal>> goals;
   std::map<std::string, ChangedEntity<SceneBinding>> bindings;
   std::map<std::string, ChangedPose> poses;
+  Footprint print;
 
   bool empty() const;
   // As paths of the document: "/goals/g1".
   std::vector<std::string> entities() const;
   // Of memory, more or less.
   std::size_t bytes() const;
-  // Takes `next` in, which came after: the two are one change then. False, and nothing changes, where somebody else's
-  // change of the same lies between; of what is new in `next`, one after the revision `began`.
-  bool join(const Change& next, Revision began);
+  // Whether the other could as well have been done before this one, or after it: they have nothing to do with each
+  // other.
+  bool commutes(const Change& other) const;
+  // Takes `next` in, which came after: the two are one change then. False, and nothing changes, where `next` does not
+  // begin where this ends.
+  bool join(const Change& next);
 };
 
 // Why a change can not be taken back.
 struct Conflict {
-  std::string what;    // "goal g1"
-  std::string path;    // "/goals/g1"
-  std::string by;      // who changed it since; empty: it is gone
-  std::string reason;  // "changed", "removed"
+  std::string path;  // "/goals/g1"
+  bool gone = false;
 };
 
 }  // namespace posed

@@ -25,9 +25,11 @@ std::set<std::string> goals_of(const Change& change, const Scene& scene) {
   return goals;
 }
 
-Error conflict_error(const Conflict& conflict, const std::string& who) {
-  return {"undo_conflict", conflict.what + " was " + conflict.reason + " by " + who + " since", "",
-          "edit.history tells what was done; name another step of yours, or set it anew"};
+// "/goals/g1" -> "goal g1".
+std::string spoken(const std::string& path) {
+  const std::size_t slash = path.find('/', 1);
+  if (path.ends_with("/q")) return "the pose of figure " + path.substr(slash + 1, path.size() - slash - 3);
+  return path.substr(1, slash - 2) + " " + path.substr(slash + 1);
 }
 
 }  // namespace
@@ -55,32 +57,42 @@ Status Editing::finish(const EditBy& by) {
     return free;
   }
   Step step;
-  step.change = scene_.commit(by.editor.name);
+  step.change = scene_.commit();
   done_.reset();
   if (step.change.empty()) return Ok{};
   renew_holds(by, step.change);
-  step.began = step.revision = scene_.revision();
+  step.revision = scene_.revision();
   step.t_ns = by.t_ns;
   step.by = by.editor;
   step.method = by.method;
   step.label = by.label;
   step.gesture = by.gesture;
-  done_ = Done{step.change, 0, step.change.entities()};
-  const Step* last = history_.to_undo(by.editor.identity);
-  const bool joins = last && scene_.stands(last->change, step.change);
-  done_->step = history_.add(std::move(step), joins);
+  done_ = Done{step.change, 0, step.change.entities(), {}};
+  History::Added added = history_.add(std::move(step));
+  done_->step = added.number;
+  done_->was = std::move(added.was);
   return Ok{};
+}
+
+Error Editing::conflict_error(const std::string& path, bool gone, const Step* since) const {
+  const std::string who =
+      since ? since->by.name + " since, in step " + std::to_string(since->number) : "somebody since";
+  return {"undo_conflict", spoken(path) + " was " + (gone ? "removed" : "changed") + " by " + who, "",
+          "edit.history tells what was done; name another step of yours, or set it anew"};
 }
 
 Result<Done> Editing::go_back(const EditBy& by, Step& step) {
   if (const Status free = check_holds(by, step.change); !free) return free.error();
-  const auto entities = step.change.entities();
-  if (const auto conflict = scene_.revert(step.change)) {
-    return conflict_error(
-        *conflict, conflict->by.empty() ? history_.last_editor(conflict->path, by.editor.identity) : conflict->by);
+  if (const Step* on_it = step.undone ? nullptr : history_.built_upon(step)) {
+    const std::string path = on_it->change.entities().front();
+    return conflict_error(path, !scene_.has(path), on_it);
   }
+  const auto entities = step.change.entities();
+  Step was = step;
+  if (const auto conflict = scene_.revert(step.change))
+    return conflict_error(conflict->path, conflict->gone, history_.last_change(conflict->path, step));
   renew_holds(by, step.change);
-  done_ = Done{step.change, step.number, entities};
+  done_ = Done{step.change, step.number, entities, std::move(was)};
   return *done_;
 }
 
@@ -109,7 +121,7 @@ Result<Done> Editing::redo(const EditBy& by) {
 void Editing::discard(std::vector<Done> edits) {
   for (auto edit = edits.rbegin(); edit != edits.rend(); ++edit) {
     (void)scene_.revert(edit->change);
-    history_.forget(edit->step);
+    history_.put_back(edit->step, std::move(edit->was));
   }
 }
 

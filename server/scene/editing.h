@@ -26,6 +26,7 @@ struct Done {
   Change change;           // takes it back
   std::uint64_t step = 0;  // of the history
   std::vector<std::string> entities;
+  std::optional<Step> was = {};  // the step as it was before
 };
 
 class Editing {
@@ -68,6 +69,7 @@ class Editing {
   Status check_holds(const EditBy& by, const Change& change) const;
   void renew_holds(const EditBy& by, const Change& change);
   Result<Done> go_back(const EditBy& by, Step& step);
+  Error conflict_error(const std::string& path, bool gone, const Step* since) const;
 
   Scene& scene_;
   History history_;

@@ -24,15 +24,14 @@ inline constexpr Content kAtStart = ~Content{0};
 struct EntityState {
   Revision revision = 0;       // the entity's own; only grows
   Content content = kAtStart;  // never 0
-  std::string by;              // who made it what it is
 };
 
 struct SceneFigure : EntityState {
   FigureEntry entry;  // its q is empty: the values are in `q`
   std::shared_ptr<const BodyTree> tree;
   std::vector<double> q;
-  Content pose = kAtStart;  // the last edit that had to do with it, its goals among that
-  std::string posed_by;
+  Content pose = kAtStart;   // the last edit that had to do with it, its goals among that
+  Content posed = kAtStart;  // the last edit that said its joint values
 };
 
 struct SceneGoal : EntityState {

@@ -60,13 +60,13 @@ Result<Edited> Scene::set_figure(FigureEntry entry, IfRevision if_revision) {
   if (const Status checked = check_id(id); !checked) return checked.error();
   if (const auto error = stale(figures_, id, if_revision)) return *error;
   const auto before = figures_.find(id);
-  const Revision revision = before == figures_.end() ? 0 : before->second.revision;
+  const Revision revision = next_revision(&Change::figures, figures_, id);
 
   if (before != figures_.end()) entry.pins.clear();
   Result<SceneFigure> figure = make_figure(std::move(entry));
   if (!figure) return figure.error();
   if (before != figures_.end()) hand_on(before->second, *figure);
-  figure->revision = revision + 1;
+  figure->revision = revision;
   std::map<std::string, SceneFigure> figures = figures_;
   figures.insert_or_assign(id, std::move(*figure));
 
@@ -89,7 +89,7 @@ Result<Edited> Scene::set_figure(FigureEntry entry, IfRevision if_revision) {
   for (const auto& [goal_id, goal] : goals) keep_goal(goal_id);
   for (auto& [goal_id, goal] : goals) goals_.insert_or_assign(goal_id, std::move(goal));
   figures_ = std::move(figures);
-  return Edited{id, count(), revision + 1};
+  return Edited{id, count(), revision};
 }
 
 Result<Edited> Scene::remove_figure(const std::string& id, IfRevision if_revision) {

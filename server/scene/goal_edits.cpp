@@ -131,8 +131,8 @@ Result<Edited> Scene::set_goal(const GoalEdit& edit, IfRevision if_revision) {
                    "remove the binding first"};
     }
   }
+  made->revision = next_revision(&Change::goals, goals_, id);
   if (!is_new) {
-    made->revision = before->second.revision + 1;
     made->live = before->second.live;
     if (made->base_sensor.station != 0 && made->base_sensor == before->second.base_sensor) {
       made->world_from_base = before->second.world_from_base;

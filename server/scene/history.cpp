@@ -4,29 +4,33 @@
 
 namespace posed {
 
-std::uint64_t History::add(Step step, bool joins) {
+History::Added History::add(Step step) {
   // What has been undone can not be redone on top of something new.
   for (Step& old : steps_) {
     if (old.undone && old.by.identity == step.by.identity) old.undone_at = 0;
   }
-  Step* last = to_undo(step.by.identity);
-  if (joins && last && !step.gesture.empty() && last->gesture == step.gesture) {
-    const std::size_t before = last->change.bytes();
-    if (last->change.join(step.change, last->began)) {
-      bytes_ += last->change.bytes() - before;
+  Step* last = step.gesture.empty() ? nullptr : to_undo(step.by.identity);
+  const bool joins =
+      last && last->gesture == step.gesture && std::all_of(steps_.begin(), steps_.end(), [&](const Step& other) {
+        return other.undone || other.applied <= last->applied || other.change.commutes(step.change);
+      });
+  if (joins) {
+    Step was = *last;
+    if (last->change.join(step.change)) {
+      bytes_ += last->change.bytes() - was.change.bytes();
       last->revision = step.revision;
       last->t_ns = step.t_ns;
-      const std::uint64_t number = last->number;
       bound();
-      return number;
+      const std::uint64_t number = was.number;
+      return {number, std::move(was)};
     }
   }
   step.number = next_number_++;
+  step.applied = next_applied_++;
   bytes_ += step.change.bytes();
   steps_.push_back(std::move(step));
-  const std::uint64_t number = steps_.back().number;
   bound();
-  return number;
+  return {steps_.back().number, std::nullopt};
 }
 
 void History::bound() {
@@ -37,10 +41,12 @@ void History::bound() {
 }
 
 Step* History::to_undo(const std::string& identity, std::uint64_t number) {
-  const auto found = std::find_if(steps_.rbegin(), steps_.rend(), [&](const Step& step) {
-    return !step.undone && step.by.identity == identity && (number == 0 || step.number == number);
-  });
-  return found == steps_.rend() ? nullptr : &*found;
+  Step* last = nullptr;
+  for (Step& step : steps_) {
+    if (step.undone || step.by.identity != identity || (number != 0 && step.number != number)) continue;
+    if (!last || step.applied > last->applied) last = &step;
+  }
+  return last;
 }
 
 Step* History::to_redo(const std::string& identity) {
@@ -61,23 +67,35 @@ void History::undone(Step& step) {
 void History::redone(Step& step) {
   step.undone = false;
   step.undone_at = 0;
+  step.applied = next_applied_++;
 }
 
-void History::forget(std::uint64_t number) {
+void History::put_back(std::uint64_t number, std::optional<Step> was) {
   const auto found = std::find_if(steps_.begin(), steps_.end(), [&](const Step& s) { return s.number == number; });
   if (found == steps_.end()) return;
   bytes_ -= found->change.bytes();
-  steps_.erase(found);
+  if (!was) return void(steps_.erase(found));
+  bytes_ += was->change.bytes();
+  *found = std::move(*was);
 }
 
-std::string History::last_editor(const std::string& path, const std::string& but_for) const {
+const Step* History::built_upon(const Step& step) const {
+  const Step* last = nullptr;
+  for (const Step& other : steps_) {
+    if (other.undone || other.applied <= step.applied || (last && last->applied > other.applied)) continue;
+    if (other.change.print.clashes(step.change.print)) last = &other;
+  }
+  return last;
+}
+
+const Step* History::last_change(const std::string& path, const Step& but_for) const {
   const Step* last = nullptr;
   for (const Step& step : steps_) {
-    if (step.by.identity == but_for || (last && last->revision > step.revision)) continue;
+    if (&step == &but_for || step.undone || (last && last->applied > step.applied)) continue;
     const std::vector<std::string> entities = step.change.entities();
     if (std::find(entities.begin(), entities.end(), path) != entities.end()) last = &step;
   }
-  return last ? last->by.name : "somebody";
+  return last;
 }
 
 }  // namespace posed

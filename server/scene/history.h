@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,12 +21,12 @@ struct Editor {
 
 struct Step {
   std::uint64_t number = 0;
-  Revision began = 0;     // the scene's, after its first edit
-  Revision revision = 0;  // after its last
+  Revision revision = 0;  // the scene's, after its last edit
   Nanoseconds t_ns = 0;   // of its last edit
   Editor by;
   std::string method, label, gesture;
   Change change;
+  std::uint64_t applied = 0;  // orders those that stand: the scene is what they make of the beginning, one by one
   bool undone = false;
   std::uint64_t undone_at = 0;  // orders the undone ones; 0: it can not be redone any more
 };
@@ -35,17 +36,24 @@ class History {
   static constexpr std::size_t kMostSteps = 1000;
   static constexpr std::size_t kMostBytes = 64 << 20;
 
-  // The step's number. An edit of the same gesture goes into the editor's last step, if `joins`: nobody else has
-  // changed since what that step is about.
-  std::uint64_t add(Step step, bool joins);
-  // The editor's last step that is not undone, or the last that was; or the one of this number. Null: there is none.
+  struct Added {
+    std::uint64_t number;
+    std::optional<Step> was;  // the step that it went into, as it was before
+  };
+  // An edit of the same gesture goes into the editor's last step, where it could as well have been done then: what
+  // others have done since has nothing to do with it.
+  Added add(Step step);
+  // The editor's last step that stands, or the one of this number; the last that was undone. Null: there is none.
   Step* to_undo(const std::string& identity, std::uint64_t number = 0);
   Step* to_redo(const std::string& identity);
   void undone(Step& step);
   void redone(Step& step);
-  void forget(std::uint64_t number);
-  // Who, other than this one, has last changed the entity of this path; "somebody" where that is forgotten.
-  std::string last_editor(const std::string& path, const std::string& but_for) const;
+  // As if what came of the step after `was`, or the whole of it, had never been.
+  void put_back(std::uint64_t number, std::optional<Step> was);
+  // The last step that came after this one and has built on it, or on what it would bring back. Null: there is none.
+  const Step* built_upon(const Step& step) const;
+  // Who else has last changed the entity of this path. Null: that is forgotten.
+  const Step* last_change(const std::string& path, const Step& but_for) const;
 
   const std::deque<Step>& steps() const { return steps_; }  // oldest first
 
@@ -53,7 +61,7 @@ class History {
   void bound();
 
   std::deque<Step> steps_;
-  std::uint64_t next_number_ = 1, next_undone_ = 1;
+  std::uint64_t next_number_ = 1, next_undone_ = 1, next_applied_ = 1;
   std::size_t bytes_ = 0;
 };
 

@@ -57,10 +57,8 @@ Result<Edited> Scene::set_object(const ObjectEdit& edit, IfRevision if_revision)
   edit.user.apply(object.user);
   Result<SceneObject> made = make_object(std::move(object));
   if (!made) return made.error();
-  if (before != objects_.end()) {
-    made->revision = before->second.revision + 1;
-    made->live = before->second.live;
-  }
+  made->revision = next_revision(&Change::objects, objects_, edit.id);
+  if (before != objects_.end()) made->live = before->second.live;
   const Revision revision = made->revision;
   keep_object(edit.id);
   carry(objects_.insert_or_assign(edit.id, std::move(*made)).first->second);

@@ -64,7 +64,7 @@ void Scene::replace(std::map<std::string, Entity>& entities, std::map<std::strin
   for (const auto& [id, entity] : entities) keep(part, entities, id);
   for (auto& [id, entity] : next) {
     keep(part, entities, id);
-    if (const auto before = entities.find(id); before != entities.end()) entity.revision = before->second.revision + 1;
+    entity.revision = next_revision(part, entities, id);
   }
   entities = std::move(next);
 }
@@ -73,6 +73,10 @@ void Scene::take_over(Scene next) {
   replace(bindings_, std::move(next.bindings_), &Change::bindings);
   replace(goals_, std::move(next.goals_), &Change::goals);
   replace(objects_, std::move(next.objects_), &Change::objects);
+  // Another figure under the same id has a pose of its own.
+  for (const auto& [id, figure] : figures_) {
+    if (next.figures_.contains(id)) keep_pose(id);
+  }
   replace(figures_, std::move(next.figures_), &Change::figures);
   count();
 }

@@ -77,14 +77,14 @@ class Scene {
   // Edits between `begin` and `commit` count as one: the scene's revision grows by one. `commit` says what they have
   // changed, or nothing; `rollback` leaves the scene as it was.
   void begin();
-  Change commit(const std::string& by);
+  Change commit();
   void rollback();
   // What has been changed since `begin`: what stood there before.
   const Change& kept() const { return open_->before; }
   // Takes a change back: what it says and what stands there change places. One edit. Nothing changes on a conflict.
   std::optional<Conflict> revert(Change& change);
-  // Whether all that it changed is still so, but for what `next` has changed after it.
-  bool stands(const Change& change, const Change& next) const;
+  // Whether the document has something of this path: "/goals/g1".
+  bool has(const std::string& path) const;
 
   // A sensor's motion: moves what is bound to it or relative to it. No edit, no revision. True where a target moved.
   // Does not allocate.
@@ -118,6 +118,16 @@ class Scene {
     Change before;      // `other`: what stood there
   };
   Revision count();
+  // The entity's own after the next edit of it: only grows, also where it is removed and made anew in one edit.
+  template <class Entity>
+  Revision next_revision(std::map<std::string, ChangedEntity<Entity>> Change::*part,
+                         const std::map<std::string, Entity>& entities, const std::string& id) const {
+    if (const auto found = entities.find(id); found != entities.end()) return found->second.revision + 1;
+    if (!open_) return 1;
+    const auto& kept = open_->before.*part;
+    const auto removed = kept.find(id);
+    return removed != kept.end() && removed->second.other ? removed->second.other->revision + 1 : 1;
+  }
   template <class Entity>
   void keep(std::map<std::string, ChangedEntity<Entity>> Change::*part, const std::map<std::string, Entity>& entities,
             const std::string& id);

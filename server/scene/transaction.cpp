@@ -16,7 +16,7 @@ using Entities = std::map<std::string, Entity>;
 
 // Says of what is kept what has come of it, and forgets what is as it was.
 template <class Entity>
-void finish(Changed<Entity>& part, Entities<Entity>& entities, Content content, const std::string& by) {
+void finish(Changed<Entity>& part, Entities<Entity>& entities, Content content, Footprint& print) {
   for (auto it = part.begin(); it != part.end();) {
     const auto present = entities.find(it->first);
     const bool here = present != entities.end();
@@ -25,11 +25,9 @@ void finish(Changed<Entity>& part, Entities<Entity>& entities, Content content, 
       it = part.erase(it);
       continue;
     }
-    if (here) {
-      present->second.content = content;
-      present->second.by = by;
-    }
+    if (here) present->second.content = content;
     it->second.expected = here ? content : 0;
+    mark(print, before ? &*before : nullptr, here ? &present->second : nullptr);
     ++it;
   }
 }
@@ -50,8 +48,7 @@ std::optional<Conflict> compare(const Changed<Entity>& part, const Entities<Enti
     const auto present = entities.find(id);
     const Content content = present == entities.end() ? 0 : present->second.content;
     if (content == changed.expected) continue;
-    return Conflict{std::string(what) + " " + id, std::string("/") + what + "s/" + id,
-                    present == entities.end() ? "" : present->second.by, content == 0 ? "removed" : "changed"};
+    return Conflict{what + id, content == 0};
   }
   return {};
 }
@@ -112,23 +109,27 @@ void Scene::keep_pose(const std::string& id) {
   const SceneFigure& figure = figures_.at(id);
   const auto [place, is_new] = open_->before.poses.try_emplace(id);
   if (!is_new) return;
-  place->second = {figure.q, figure.pose, 0, true, figure.revision};
+  place->second = {figure.q, figure.pose, 0, true, figure.revision, figure.posed, 0};
   // A figure that is kept already has the values from before.
-  if (const auto kept = open_->before.figures.find(id); kept != open_->before.figures.end() && kept->second.other)
-    place->second.q = kept->second.other->q;
+  if (const auto kept = open_->before.figures.find(id); kept != open_->before.figures.end() && kept->second.other) {
+    const SceneFigure& before = *kept->second.other;
+    place->second = {before.q, before.pose, 0, true, before.revision, before.posed, 0};
+  }
 }
 
-Change Scene::commit(const std::string& by) {
+Change Scene::commit() {
   Change change = std::move(open_->before);
   open_.reset();
-  for (auto& [id, pose] : change.poses) {
-    const auto kept = change.figures.find(id);
-    if (kept != change.figures.end() && kept->second.other) kept->second.other->q = pose.q;
+  for (auto& [id, kept] : change.figures) {
+    if (!kept.other) continue;
+    if (const auto pose = change.poses.find(id); pose != change.poses.end()) kept.other->q = pose->second.q;
+    // Whoever said the joint values: another form, or a figure made anew, is no word on them.
+    if (const auto now = figures_.find(id); now != figures_.end()) now->second.posed = kept.other->posed;
   }
-  finish(change.figures, figures_, revision_, by);
-  finish(change.objects, objects_, revision_, by);
-  finish(change.goals, goals_, revision_, by);
-  finish(change.bindings, bindings_, revision_, by);
+  finish(change.figures, figures_, revision_, change.print);
+  finish(change.objects, objects_, revision_, change.print);
+  finish(change.goals, goals_, revision_, change.print);
+  finish(change.bindings, bindings_, revision_, change.print);
 
   std::set<std::string> concerned;
   const auto concern_goal = [&](const std::string& id) {
@@ -164,7 +165,9 @@ Change Scene::commit(const std::string& by) {
       }
     }
     pose->second.expected = figure->second.pose = revision_;
-    figure->second.posed_by = by;
+    if (!pose->second.asked) continue;
+    pose->second.expected_q = figure->second.posed = revision_;
+    change.print.leans.insert("/figures/" + id);
   }
   return change;
 }
@@ -177,6 +180,8 @@ void Scene::rollback() {
     const auto figure = figures_.find(id);
     if (figure == figures_.end()) continue;
     figure->second.q = pose.q;
+    figure->second.pose = pose.other;
+    figure->second.posed = pose.other_q;
     figure->second.revision = std::min(figure->second.revision, pose.revision);
   }
   restore(open.before.objects, objects_);
@@ -187,38 +192,39 @@ void Scene::rollback() {
 }
 
 std::optional<Conflict> Scene::changed_since(const Change& change) const {
-  if (auto c = compare(change.figures, figures_, "figure")) return c;
-  if (auto c = compare(change.objects, objects_, "object")) return c;
-  if (auto c = compare(change.goals, goals_, "goal")) return c;
-  if (auto c = compare(change.bindings, bindings_, "binding")) return c;
+  if (auto c = compare(change.figures, figures_, "/figures/")) return c;
+  if (auto c = compare(change.objects, objects_, "/objects/")) return c;
+  if (auto c = compare(change.goals, goals_, "/goals/")) return c;
+  if (auto c = compare(change.bindings, bindings_, "/bindings/")) return c;
   for (const auto& [id, pose] : change.poses) {
     const auto figure = figures_.find(id);
-    if (!pose.asked || (figure != figures_.end() && figure->second.pose == pose.expected)) continue;
-    const bool here = figure != figures_.end();
-    return Conflict{"the pose of figure " + id, "/figures/" + id, here ? figure->second.posed_by : "",
-                    here ? "changed" : "removed"};
+    if (!pose.asked || (figure != figures_.end() && figure->second.posed == pose.expected_q)) continue;
+    if (figure == figures_.end() && change.figures.contains(id)) continue;  // it brings its pose along
+    return Conflict{"/figures/" + id + "/q", figure == figures_.end()};
   }
   return {};
 }
 
-bool Scene::stands(const Change& change, const Change& next) const {
-  const auto all = [](const auto& part, const auto& later, const auto& entities) {
-    return std::all_of(part.begin(), part.end(), [&](const auto& entry) {
-      if (later.contains(entry.first)) return true;
-      const auto now = entities.find(entry.first);
-      return (now == entities.end() ? 0 : now->second.content) == entry.second.expected;
-    });
-  };
-  return all(change.figures, next.figures, figures_) && all(change.objects, next.objects, objects_) &&
-         all(change.goals, next.goals, goals_) && all(change.bindings, next.bindings, bindings_);
+bool Scene::has(const std::string& path) const {
+  const std::size_t slash = path.find('/', 1);
+  const std::string kind = path.substr(0, slash + 1);
+  std::string id = path.substr(slash + 1);
+  id = id.substr(0, id.find('/'));
+  return kind == "/figures/"   ? figures_.contains(id)
+         : kind == "/objects/" ? objects_.contains(id)
+         : kind == "/goals/"   ? goals_.contains(id)
+                               : bindings_.contains(id);
 }
 
 void Scene::exchange(Change& change) {
-  // Where the figures' poses are nobody else's, they change places, too. Else they stay.
-  std::map<std::string, std::pair<std::vector<double>, Content>> present;
+  struct Posed {
+    std::vector<double> q;
+    Content pose, posed;
+  };
+  std::map<std::string, Posed> present;
   for (const auto& [id, pose] : change.poses) {
     if (const auto figure = figures_.find(id); figure != figures_.end())
-      present[id] = {figure->second.q, figure->second.pose};
+      present[id] = {figure->second.q, figure->second.pose, figure->second.posed};
   }
   swap(change.figures, figures_);
   swap(change.objects, objects_);
@@ -229,22 +235,26 @@ void Scene::exchange(Change& change) {
     const auto was = present.find(id);
     if (now == figures_.end() || was == present.end()) continue;  // it takes its pose along
     SceneFigure& figure = now->second;
-    if (was->second.second == pose.expected) {
-      figure.q = std::exchange(pose.q, was->second.first);
-      figure.pose = pose.other;
-      pose.other = std::exchange(pose.expected, figure.pose);
-      if (!change.figures.contains(id) && pose.asked) ++figure.revision;
-    } else {
-      if (check_q(*figure.tree, was->second.first)) figure.q = was->second.first;
-      figure.pose = was->second.second;
-    }
+    // Where nobody else has had to do with the figure its pose comes back, too; else it stays.
+    const bool alone = was->second.pose == pose.expected;
+    if ((alone || pose.asked) && check_q(*figure.tree, pose.q))
+      figure.q = std::exchange(pose.q, was->second.q);
+    else if (check_q(*figure.tree, was->second.q))
+      figure.q = was->second.q;
+    figure.pose = alone ? pose.other : revision_ + 1;
+    pose.other = std::exchange(pose.expected, alone ? figure.pose : 0);
+    figure.posed = was->second.posed;
+    if (!pose.asked) continue;
+    figure.posed = pose.other_q;
+    std::swap(pose.other_q, pose.expected_q);
+    if (!change.figures.contains(id)) ++figure.revision;
   }
 }
 
 // Names find their places anew: what one edit brought back, another may have taken away.
 std::optional<Conflict> Scene::refit(const Change& change) {
   const auto gone = [](const char* what, const std::string& id) {
-    return Conflict{std::string(what) + " " + id, std::string("/") + what + "s/" + id, "", "removed"};
+    return Conflict{std::string("/") + what + "s/" + id, true};
   };
   std::set<std::string> bound;  // of goals and objects
   for (const auto& [id, binding] : bindings_) bound.insert(binding.binding.to.goal + "/" + binding.binding.to.object);
@@ -255,7 +265,7 @@ std::optional<Conflict> Scene::refit(const Change& change) {
         (base.kind == GoalBase::Kind::segment && !figures_.contains(base.figure)) ||
         (base.kind == GoalBase::Kind::object && !objects_.contains(base.object))) {
       const bool figure_gone = !figures_.contains(goal.goal.figure);
-      if (!change.goals.contains(id)) return Conflict{"goal " + id, "/goals/" + id, goal.by, "changed"};
+      if (!change.goals.contains(id)) return Conflict{"/goals/" + id, false};
       if (!figure_gone && base.kind == GoalBase::Kind::object) return gone("object", base.object);
       return gone("figure", figure_gone ? goal.goal.figure : base.figure);
     }
@@ -264,9 +274,8 @@ std::optional<Conflict> Scene::refit(const Change& change) {
       continue;
     Result<SceneGoal> again = make_goal(goal.goal, figures_);
     if (!again) {
-      const SceneFigure& figure = figures_.at(goal.goal.figure);
-      if (!change.goals.contains(id)) return Conflict{"goal " + id, "/goals/" + id, goal.by, "changed"};
-      return Conflict{"figure " + goal.goal.figure, "/figures/" + goal.goal.figure, figure.by, "changed"};
+      if (!change.goals.contains(id)) return Conflict{"/goals/" + id, false};
+      return Conflict{"/figures/" + goal.goal.figure, false};
     }
     static_cast<EntityState&>(*again) = goal;
     again->live = goal.live;
@@ -286,14 +295,13 @@ std::optional<Conflict> Scene::refit(const Change& change) {
       if (change.bindings.contains(id)) binding.anchor.reset();
       continue;
     }
-    if (!change.bindings.contains(id)) return Conflict{"binding " + id, "/bindings/" + id, binding.by, "changed"};
+    if (!change.bindings.contains(id)) return Conflict{"/bindings/" + id, false};
     if (to.object.empty() && !goals_.contains(to.goal)) return gone("goal", to.goal);
     if (!to.object.empty() && !objects_.contains(to.object)) return gone("object", to.object);
     for (const auto& [other_id, other] : bindings_) {
-      if (other_id != id && other.binding.to == to)
-        return Conflict{"binding " + other_id, "/bindings/" + other_id, other.by, "changed"};
+      if (other_id != id && other.binding.to == to) return Conflict{"/bindings/" + other_id, false};
     }
-    return Conflict{"goal " + to.goal, "/goals/" + to.goal, goals_.at(to.goal).by, "changed"};
+    return Conflict{"/goals/" + to.goal, false};
   }
   return {};
 }

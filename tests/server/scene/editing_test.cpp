@@ -295,46 +295,187 @@ TEST_F(EditingTest, EditsThatAreDiscardedHaveNeverBeen) {
   EXPECT_EQ(editing.undo(by("ben")).error().code, "nothing_to_undo");
 }
 
-// An open fault: after some orders of edits, gestures and redos two editors are left with steps that are refused.
-// Whatever two do in whatever order, who takes all of theirs back, the other's undone first, is where they began.
-TEST_F(EditingTest, DISABLED_EverythingTakenBackIsTheBeginning) {
-  for (unsigned seed = 1; seed <= 20; ++seed) {
+// Removed and made anew in one edit it looked as if nothing had been done: both were at revision 1.
+TEST_F(EditingTest, WhatIsMadeAnewInOneEditIsAChange) {
+  ASSERT_TRUE(set(by("ana"), "g1", {1, 0, 0}));
+  ASSERT_TRUE(edit(by("ben"), [](Scene& s) -> Result<Edited> {
+    EXPECT_TRUE(s.remove_goal("g1", {}));
+    return s.set_goal(goal_edit("g1", "right_hand", {2, 0, 0}), {});
+  }));
+  EXPECT_EQ(scene.goals().at("g1").revision, 2u);
+  EXPECT_EQ(editing.undo(by("ana")).error().code, "undo_conflict");
+  ASSERT_TRUE(editing.undo(by("ben")));
+  EXPECT_EQ(position("g1"), Vec3(1, 0, 0));
+}
+
+// Its goal did not exist any more in any state in between: ben could not have gone back.
+TEST_F(EditingTest, WhatOthersHaveBuiltOnStaysThoughNothingHangsOnItNow) {
+  const auto place = [](Scene& s) { return s.set_object({"o1", Vec3(1, 0, 0), {}, {}, {}, {}}, {}); };
+  ASSERT_TRUE(edit(by("ana"), place));
+  GoalEdit on_it = goal_edit("g1");
+  on_it.relative_to = GoalBase{GoalBase::Kind::object, "", "", "", "o1"};
+  ASSERT_TRUE(edit(by("ben"), [&](Scene& s) { return s.set_goal(on_it, {}); }));
+  ASSERT_TRUE(edit(by("ben"), [](Scene& s) { return s.remove_goal("g1", {}); }));
+  expect_refused("undo_conflict", "", [&] { return editing.undo(by("ana")); });
+  EXPECT_NE(editing.undo(by("ana")).error().message.find("goal g1 was removed by ben"), std::string::npos);
+  ASSERT_TRUE(editing.undo(by("ben")));
+  ASSERT_TRUE(editing.undo(by("ben")));
+  ASSERT_TRUE(editing.undo(by("ana")));
+}
+
+// The binding had been made before the gesture, undone, and made again within it: joined to the gesture's goal, whose
+// undo it then stood in the way of, and could itself not be undone.
+TEST_F(EditingTest, AGestureTakesInNothingThatCameBackMeanwhile) {
+  ASSERT_TRUE(set(by("ana"), "g1", {1, 0, 0}));
+  ASSERT_TRUE(edit(by("ben"), [](Scene& s) { return s.set_binding(binding_edit("b1", "g1"), {}); }));
+  ASSERT_TRUE(editing.undo(by("ben")));
+  ASSERT_TRUE(editing.undo(by("ana")));
+  ASSERT_TRUE(set(by("cyn", "drag"), "g2", {1, 0, 0}));
+  ASSERT_TRUE(editing.redo(by("ana")));
+  ASSERT_TRUE(editing.redo(by("ben")));
+  ASSERT_TRUE(edit(by("cyn", "drag"), [](Scene& s) {
+    BindingEdit other = binding_edit("b1", "g2");
+    return s.set_binding(other, {});
+  }));
+  EXPECT_EQ(editing.history().steps().size(), 4u) << "ben's edit of the binding came between";
+  for (const char* name : {"cyn", "cyn", "ben", "ana"}) EXPECT_TRUE(editing.undo(by(name))) << name;
+}
+
+TEST_F(EditingTest, AGestureGoesOnThoughOthersEditWhatHasNothingToDoWithIt) {
+  ASSERT_TRUE(set(by("ana", "drag"), "g1", {1, 0, 0}));
+  ASSERT_TRUE(edit(by("ben"), [](Scene& s) { return s.set_binding(binding_edit("b1", "g1"), {}); }));
+  ASSERT_TRUE(set(by("ana", "drag"), "g1", {2, 0, 0}));
+  EXPECT_EQ(editing.history().steps().size(), 2u);
+  ASSERT_TRUE(editing.undo(by("ben")));
+  ASSERT_TRUE(editing.undo(by("ana")));
+  EXPECT_FALSE(scene.goals().contains("g1"));
+}
+
+// A goal of ben's that came and went left ana's pose under a number that nobody had.
+TEST_F(EditingTest, APoseIsTakenBackWhateverGoalsCameAndWentSince) {
+  std::vector<double> q = scene.figures().at("body").q;
+  q[0] = 1.0;
+  ASSERT_TRUE(edit(by("ana"), [&](Scene& s) { return s.set_q("body", q, {}); }));
+  ASSERT_TRUE(set(by("ben"), "g1", {1, 0, 0}));
+  ASSERT_TRUE(set(by("ana"), "g2", {1, 0, 0}));
+  ASSERT_TRUE(editing.undo(by("ben")));
+  ASSERT_TRUE(editing.undo(by("ana")));
+  ASSERT_TRUE(editing.undo(by("ana")));
+  EXPECT_NE(pose(), 1.0);
+}
+
+TEST_F(EditingTest, AFigureThatIsMadeAndPosedInOneEditComesBack) {
+  ASSERT_TRUE(edit(by("ana"), [&](Scene& s) -> Result<Edited> {
+    EXPECT_TRUE(s.set_figure(tempus_entry("other"), {}));
+    std::vector<double> q = s.figures().at("other").q;
+    q[0] = 1.0;
+    return s.set_q("other", q, {});
+  }));
+  const std::string after = document();
+  for (int i = 0; i < 3; ++i) {
+    ASSERT_TRUE(editing.undo(by("ana")));
+    ASSERT_TRUE(editing.redo(by("ana"))) << editing.redo(by("ana")).error().message;
+    EXPECT_EQ(document(), after);
+  }
+}
+
+// A pose of the figure's other form has another length.
+TEST_F(EditingTest, NoPoseOfAnotherFormComesBack) {
+  ASSERT_TRUE(set(by("ana"), "g1", {1, 0, 0}));
+  ASSERT_TRUE(edit(by("ana"), [](Scene& s) { return s.remove_goal("g1", {}); }));
+  ASSERT_TRUE(edit(by("ana"), [](Scene& s) { return s.set_figure(small_entry("body"), {}); }));
+  const std::uint64_t form = editing.history().steps().back().number;
+  const auto place = [](Scene& s) { return s.set_object({"o1", Vec3(1, 0, 0), {}, {}, {}, {}}, {}); };
+  ASSERT_TRUE(edit(by("ben"), place));
+  GoalEdit on_tip = goal_edit("g2", "tip");
+  ASSERT_TRUE(edit(by("ben"), [&](Scene& s) { return s.set_goal(on_tip, {}); }));
+  EXPECT_EQ(editing.undo(by("ana"), form).error().code, "undo_conflict");
+  ASSERT_TRUE(editing.undo(by("ben")));
+  ASSERT_TRUE(editing.undo(by("ana"), form));
+  ASSERT_TRUE(editing.undo(by("ben")));
+  EXPECT_EQ(scene.figures().at("body").q.size(), static_cast<std::size_t>(scene.figures().at("body").tree->q_size()));
+}
+
+// Lost with the disk, an undo leaves its step to be undone again; a drag's second half leaves the first.
+TEST_F(EditingTest, WhatIsDiscardedLeavesTheHistoryAsItWas) {
+  ASSERT_TRUE(set(by("ana", "drag"), "g1", {1, 0, 0}));
+  editing.take_done();
+  ASSERT_TRUE(set(by("ana", "drag"), "g1", {2, 0, 0}));
+  std::vector<Done> lost{*editing.take_done()};
+  ASSERT_TRUE(editing.undo(by("ana")));
+  lost.push_back(*editing.take_done());
+  editing.discard(std::move(lost));
+  EXPECT_EQ(position("g1"), Vec3(1, 0, 0));
+  ASSERT_TRUE(editing.undo(by("ana")));
+  EXPECT_FALSE(scene.goals().contains("g1"));
+}
+
+// Whatever three do in whatever order: somebody can always take back their last step, until all is as it began.
+TEST_F(EditingTest, EverythingTakenBackIsTheBeginning) {
+  for (unsigned seed = 1; seed <= 60; ++seed) {
     std::mt19937 random{seed};
-    Scene fresh;
-    scene = fresh;
+    scene = Scene();
     ASSERT_TRUE(scene.set_figure(tempus_entry("body"), {}));
     Editing own{scene};
     const std::string before = document();
     const auto pick = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
-    std::vector<std::string> names{"ana", "ben"};
-    for (int i = 0; i < 200; ++i) {
-      const EditBy who = by(names[static_cast<std::size_t>(pick(2))], pick(3) ? "" : "g" + std::to_string(pick(3)));
+    const std::vector<std::string> names{"ana", "ben", "cyn"};
+    const auto change = [&](Scene& s) -> Result<Edited> {
       const std::string goal = "g" + std::to_string(pick(4)), object = "o" + std::to_string(pick(2));
-      (void)own.edit(who, [&](Scene& s) -> Result<Edited> {
-        switch (pick(8)) {
-          case 0:
-            return s.remove_goal(goal, {});
-          case 1:
-            return s.set_object({object, Vec3(pick(9), 0, 0), {}, {}, {}, {}}, {});
-          case 2:
-            return s.remove_object(object, {});
-          case 3: {
-            GoalEdit edit = goal_edit(goal, "head");
-            edit.relative_to = GoalBase{GoalBase::Kind::object, "", "", "", object};
-            return s.set_goal(edit, {});
-          }
-          case 4:
-            return s.set_binding(binding_edit("b" + std::to_string(pick(2)), goal), {});
-          case 5:
-            return s.set_figure(tempus_entry(pick(2) ? "body" : "other", 1.5 + 0.1 * pick(4)), {});
-          case 6:
-            return s.remove_figure("other", {});
-          default:
-            return s.set_goal(goal_edit(goal, pick(2) ? "right_hand" : "left_hand", {pick(9) * 0.1, 0, 1}), {});
+      const std::string figure = pick(2) ? "body" : "other", binding = "b" + std::to_string(pick(2));
+      switch (pick(13)) {
+        case 0:
+          return s.remove_goal(goal, {});
+        case 1:
+          return s.set_object({object, Vec3(pick(9), 0, 0), {}, {}, {}, {}}, {});
+        case 2:
+          return s.remove_object(object, {});
+        case 3: {
+          GoalEdit edit = goal_edit(goal, "head");
+          edit.relative_to = GoalBase{GoalBase::Kind::object, "", "", "", object};
+          return s.set_goal(edit, {});
         }
+        case 4:
+          return s.set_binding(binding_edit(binding, goal), {});
+        case 5:
+          return s.remove_binding(binding, {});
+        case 6:
+          return s.set_figure(tempus_entry(figure, 1.5 + 0.1 * pick(4)), {});
+        case 7:
+          return pick(3) ? s.set_figure(small_entry("other"), {}) : s.remove_figure("other", {});
+        case 8: {
+          const auto found = s.figures().find(figure);
+          if (found == s.figures().end()) return Error{};
+          std::vector<double> q = found->second.tree->rest();
+          if (q.size() > 7) q[0] = pick(9);
+          return s.set_q(figure, q, {});
+        }
+        case 9: {
+          if (pick(2)) return s.pin("body", pick(2) ? "head" : "left_foot", Pin::Hold::position, {});
+          return s.pin("other", "tip", pick(2) ? std::optional(Pin::Hold::pose) : std::nullopt, {});
+        }
+        case 10: {
+          GoalEdit edit = goal_edit(goal, pick(2) ? "tip" : "right_hand");
+          edit.figure = "other";
+          return s.set_goal(edit, {});
+        }
+        default:
+          return s.set_goal(goal_edit(goal, pick(2) ? "right_hand" : "left_hand", {pick(9) * 0.1, 0, 1}), {});
+      }
+    };
+    for (int i = 0; i < 250; ++i) {
+      const EditBy who = by(names[static_cast<std::size_t>(pick(3))], pick(3) ? "" : "g" + std::to_string(pick(2)));
+      (void)own.edit(who, [&](Scene& s) -> Result<Edited> {
+        Result<Edited> result = change(s);
+        for (int more = pick(4) ? 0 : pick(4); result && more > 0; --more) result = change(s);
+        return result;
       });
-      if (pick(5) == 0) (void)own.undo(who);
-      if (pick(8) == 0) (void)own.redo(who);
+      if (pick(4) == 0) (void)own.undo(who);
+      if (pick(8) == 0 && !own.history().steps().empty()) {
+        const std::size_t any = random() % own.history().steps().size();
+        (void)own.undo(who, own.history().steps()[any].number);
+      }
+      if (pick(6) == 0) (void)own.redo(who);
     }
     for (bool moved = true; moved;) {
       moved = false;
@@ -344,10 +485,9 @@ TEST_F(EditingTest, DISABLED_EverythingTakenBackIsTheBeginning) {
     }
     for (const std::string& name : names) {
       const auto stuck = own.undo(by(name));
-      EXPECT_EQ(stuck.error().code, "nothing_to_undo") << name << ": " << stuck.error().message << " " << seed;
+      ASSERT_EQ(stuck.error().code, "nothing_to_undo") << name << ": " << stuck.error().message << ", seed " << seed;
     }
-    for (const Step& step : own.history().steps()) EXPECT_TRUE(step.undone) << seed << ": step " << step.number;
-    EXPECT_EQ(document(), before) << seed;
+    ASSERT_EQ(document(), before) << seed;
   }
 }
 
