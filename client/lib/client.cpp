@@ -326,10 +326,10 @@ Result<std::string> Client::request(const proto::Params& params) {
 }
 
 Status Client::subscribe(const proto::StreamSubscribe& subscription) {
-  // Frames that are kept are the old subscription's.
-  std::erase_if(impl_->frames, [&](const proto::Incoming& frame) { return frame.stream == subscription.stream; });
   const auto result = request(subscription);
   if (!result) return result.error();
+  // Frames that came before the reply are the old subscription's.
+  std::erase_if(impl_->frames, [&](const proto::Incoming& frame) { return frame.stream == subscription.stream; });
   impl_->credit[static_cast<std::size_t>(subscription.stream)] = subscription.credit;
   impl_->subscriptions[subscription.stream] = subscription;
   return Ok{};

@@ -120,12 +120,13 @@ class Posed:
         if stream != "scene":  # which is never thinned
             wish.setdefault("credit", CREDIT)
         self.call("stream.subscribe", **wish)
+        self._frames.pop(stream, None)  # what came before the reply is the old subscription's
         self._subscriptions[stream] = wish
 
     def unsubscribe(self, stream: str) -> None:
         self._subscriptions.pop(stream, None)
-        self._frames.pop(stream, None)
         self.call("stream.unsubscribe", stream=stream)
+        self._frames.pop(stream, None)
 
     def next_frame(self, stream: str, timeout: Optional[float] = None) -> Optional[JsonObject]:
         """The next frame's data, or None when the time (in seconds; None: no end) is over."""

@@ -126,6 +126,23 @@ TEST(Client, AcknowledgesWhereThereIsCredit) {
   EXPECT_EQ(lines[2], proto::encode_notification(proto::StreamAck{proto::Stream::stats, 2}));
 }
 
+// They began where the new subscription's first frame is not yet: of the scene a change was missing.
+TEST(Client, FramesOfTheOldSubscriptionAreNotTheNewOnes) {
+  std::uint64_t seq = 0;
+  const PlayedDaemon daemon([&seq](const proto::Request& request) {
+    auto lines = reply(request, proto::SubscribeResult{proto::Stream::stats});
+    lines.insert(lines.begin(), stats_frame(++seq));  // sent before the request was read
+    lines.push_back(stats_frame(++seq));
+    return lines;
+  });
+  auto client = Client::connect(daemon.address());
+  ASSERT_TRUE(client);
+  for (const std::uint64_t first : {2u, 4u}) {
+    ASSERT_TRUE(client->subscribe({proto::Stream::stats, {}, {}, 0.0, 0}));
+    EXPECT_EQ(client->next(std::chrono::seconds(60))->seq, first);
+  }
+}
+
 TEST(Client, ALostConnectionStaysLost) {
   PlayedDaemon daemon([](const proto::Request&) { return Lines{"close"}; });
   auto client = Client::connect(daemon.address());

@@ -1,7 +1,10 @@
-// Two clients edit the same entities, in turn and at once, and lose their connections meanwhile: whoever follows the
-// scene stream ends with the daemon's document, byte for byte.
+// Two clients edit the same entities, in turn and at once, and lose their connections meanwhile; a third comes and
+// goes. Whoever follows the scene stream has the same document at the same revision, and ends with the daemon's, byte
+// for byte.
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <thread>
@@ -23,6 +26,34 @@ constexpr const char* kArm =
     R"({"id":"arm","document":{"format":"posed.figure/1","root":"base","segments":[
       {"name":"base","touch_point":[0,0,0.1],"joint":{"name":"j0","type":"fixed","position":[0,0,0]}},
       {"name":"tip","parent":"base","touch_point":[0,0,0.5],"joint":{"name":"j1","type":"ball","position":[0,0,0.2]}}]}})";
+
+// What a follower of the scene stream has, and a watch that all have the same.
+class Copy {
+ public:
+  // A follower's copy begins anew with its next frame.
+  void forget() { revision_ = 0; }
+  void take(const std::string& text) {
+    const json data = json::parse(text);
+    if (data.contains("document")) {
+      document_ = data["document"];
+    } else {
+      ASSERT_EQ(data["from_revision"], revision_) << "a change is missing";
+      document_ = document_.patch(data["patch"]);
+    }
+    revision_ = data["revision"];
+    static std::mutex mutex;
+    static std::map<std::uint64_t, std::string> seen;
+    const std::lock_guard lock(mutex);
+    const auto [known, is_new] = seen.try_emplace(revision_, document_.dump());
+    ASSERT_EQ(known->second, document_.dump()) << "another follower has another document at revision " << revision_;
+  }
+  std::uint64_t revision() const { return revision_; }
+  std::string text() const { return document_.dump(); }
+
+ private:
+  json document_;
+  std::uint64_t revision_ = 0;
+};
 
 class Editor {
  public:
@@ -93,24 +124,17 @@ class Editor {
 
   // Until that revision, where `to_the_end`; else what has come so far.
   void follow(bool to_the_end, std::uint64_t revision) {
-    while (!to_the_end || revision_ < revision) {
+    while (!to_the_end || copy_.revision() < revision) {
       const auto frame = client_.next(std::chrono::milliseconds(to_the_end ? 60'000 : 0));
       if (!frame) {
         ASSERT_FALSE(to_the_end) << frame.error().message;
         return;
       }
-      const json data = json::parse(frame->data);
-      if (data.contains("document")) {
-        document_ = data["document"];
-      } else {
-        ASSERT_EQ(data["from_revision"], revision_) << "a change is missing";
-        document_ = document_.patch(data["patch"]);
-      }
-      revision_ = data["revision"];
+      copy_.take(frame->data);
     }
   }
 
-  std::string document() const { return document_.dump(); }
+  std::string document() const { return copy_.text(); }
 
   int accepted = 0;
   std::map<std::string, int> refused;
@@ -134,7 +158,7 @@ class Editor {
     ASSERT_TRUE(reply) << reply.error().message;
     resume_ = json::parse(*reply)["resume"];
     ASSERT_TRUE(client_.subscribe({proto::Stream::scene, {}, {}, 0.0, 0}));
-    revision_ = 0;
+    copy_.forget();
   }
 
   const test::RunningDaemon& daemon_;
@@ -142,9 +166,41 @@ class Editor {
   std::mt19937 random_;
   client::Client client_;
   std::string resume_;
-  json document_;
-  std::uint64_t revision_ = 0;
+  Copy copy_;
 };
+
+// Follows for a while, and leaves in one way or another.
+int come_and_go(const test::RunningDaemon& daemon, const std::atomic<bool>& over) {
+  std::mt19937 random{3};
+  client::Client client = daemon.connect();
+  Copy copy;
+  int snapshots = 0;
+  while (!over) {
+    switch (random() % 4) {
+      case 0:
+        client = daemon.connect();
+        copy.forget();
+        break;
+      case 1:
+        EXPECT_TRUE(client.unsubscribe(proto::Stream::scene));
+        break;
+      case 2:
+        EXPECT_TRUE(client.call("session.ping", "{}"));
+        break;
+      default:  // asks again while it follows
+        break;
+    }
+    EXPECT_TRUE(client.subscribe({proto::Stream::scene, {}, {}, 0.0, 0}));
+    for (auto frames = random() % 40; frames > 0 && !over; --frames) {
+      const auto frame = client.next(std::chrono::milliseconds(50));
+      if (!frame) continue;
+      snapshots += json::parse(frame->data).contains("document");
+      copy.take(frame->data);
+      if (::testing::Test::HasFatalFailure()) return snapshots;
+    }
+  }
+  return snapshots;
+}
 
 TEST(Convergence, AllWhoFollowHaveTheDaemonsDocument) {
   const test::RunningDaemon daemon({}, "empty");
@@ -153,6 +209,9 @@ TEST(Convergence, AllWhoFollowHaveTheDaemonsDocument) {
   ASSERT_TRUE(judge.call("figure.set", kArm));
   ASSERT_TRUE(judge.call("figure.remove", R"({"id":"body"})"));
   Editor ana(daemon, "ana", 1), ben(daemon, "ben", 2);
+  std::atomic<bool> over = false;
+  int snapshots = 0;
+  std::thread third([&] { snapshots = come_and_go(daemon, over); });
   for (int i = 0; i < kEdits / 8; ++i) {  // in turn
     ana.edit();
     ben.edit();
@@ -162,6 +221,9 @@ TEST(Convergence, AllWhoFollowHaveTheDaemonsDocument) {
   });
   for (int i = 0; i < kEdits * 3 / 8; ++i) ana.edit();
   other.join();
+  over = true;
+  third.join();
+  EXPECT_GT(snapshots, 10) << "the third was to come and go";
   const auto scene = judge.call("scene.get");
   ASSERT_TRUE(scene);
   json document = json::parse(*scene)["document"];
