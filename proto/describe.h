@@ -407,7 +407,7 @@ void describe(V& v, SceneNew& m) {
 }
 
 template <class V, class M>
-requires OneOf<M, SceneSave, SceneOpen>
+requires OneOf<M, SceneSave, SceneOpen, SceneRemove>
 void describe(V& v, M& m) {
   v.required("name", m.name);
 }

@@ -194,6 +194,9 @@ struct SceneSave {
 struct SceneOpen {
   std::string name;
 };
+struct SceneRemove {
+  std::string name;
+};
 
 struct TrackerList {};
 
@@ -240,8 +243,8 @@ using Params =
                  FigurePin, GoalSet, GoalGet, GoalList, GoalRemove, GoalClear, GoalGrab, GoalRelease, ObjectSet,
                  ObjectGet, ObjectList, ObjectRemove, BindingSet, BindingGet, BindingList, BindingRemove, JointSet,
                  JointGet, PoseGet, PoseSet, PoseReset, PoseMirror, SolverGet, SolverSet, Solve, SolveBatch, SceneGet,
-                 SceneNew, SceneList, SceneSave, SceneOpen, TrackerList, StreamSubscribe, StreamUnsubscribe, StreamAck,
-                 EditApply, EditUndo, EditRedo, EditHistory>;
+                 SceneNew, SceneList, SceneSave, SceneOpen, SceneRemove, TrackerList, StreamSubscribe,
+                 StreamUnsubscribe, StreamAck, EditApply, EditUndo, EditRedo, EditHistory>;
 
 struct Edit {
   std::optional<std::uint64_t> if_revision;  // edits of one entity only

@@ -72,6 +72,7 @@ constexpr std::array kMethods{
     method<SceneList>("scene.list"),
     method<SceneSave>("scene.save"),
     method<SceneOpen>("scene.open", Edits::whole),
+    method<SceneRemove>("scene.remove"),
     method<TrackerList>("tracker.list"),
     method<StreamSubscribe>("stream.subscribe"),
     method<StreamUnsubscribe>("stream.unsubscribe"),
@@ -84,8 +85,8 @@ constexpr std::array kMethods{
 static_assert(kMethods.size() == std::variant_size_v<Params>);
 
 constexpr const char* kReserved[] = {
-    "scene.remove", "camera.set",      "camera.get",        "camera.list",   "camera.remove",
-    "tracker.grab", "tracker.release", "tracker.configure", "tracker.align", "tracker.reset",
+    "camera.set",      "camera.get",        "camera.list",   "camera.remove", "tracker.grab",
+    "tracker.release", "tracker.configure", "tracker.align", "tracker.reset",
 };
 
 bool ends_with_any(std::string_view name, std::initializer_list<std::string_view> endings) {

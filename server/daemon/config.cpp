@@ -86,6 +86,8 @@ std::optional<Config> read_config(int argc, const char* const* argv, int& exit_c
   app.add_option("--tls.certificate", config.tls_certificate, "a certificate in PEM, with those that lead to its root");
   app.add_option("--tls.key", config.tls_key, "its private key in PEM");
   app.add_flag("--listen.open", open_network, "accept an address beyond loopback without tokens or TLS");
+  app.add_option("--listen.name", config.names, "a name by which browsers may call the daemon; may be given again")
+      ->allow_extra_args(false);
   try {
     app.parse(argc, argv);
     parse_listen(listen, config);

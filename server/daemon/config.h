@@ -25,6 +25,7 @@ struct Config {
   std::filesystem::path tokens;                    // empty: nobody is asked for one
   std::filesystem::path tls_certificate, tls_key;  // empty: no TLS
   bool beyond_loopback = false;                    // others can reach the address
+  std::vector<std::string> names;                  // by which browsers may call us, besides the machine's own
   std::string solve_method = "springs";            // or "reach_tree"
   double solve_deadline_ms = 20.0;                 // a solve that takes longer ends with the best pose so far
 };

@@ -16,12 +16,15 @@ namespace {
 constexpr std::size_t kConnectionsOfOneAddress = 200;
 constexpr Nanoseconds kAdmission = 30'000'000'000;  // to say session.hello with a token
 constexpr double kLinesOfOnePeer = 2000.0;          // a second
+constexpr double kHandshakesOfOneAddress = 20.0;    // a second
+constexpr double kPagesOfOneAddress = 100.0;        // a second
 
 net::Options network_options(const Config& config) {
   net::Options options;
   options.host = config.host;
   options.port = config.port;
   options.viewer = config.viewer;
+  options.hosts = config.names;
   if (!config.tokens.empty()) {
     options.tokens = std::make_shared<const net::Tokens>(net::Tokens::read(config.tokens));
     options.limits.admission = kAdmission;
@@ -31,6 +34,8 @@ net::Options network_options(const Config& config) {
   if (config.beyond_loopback) {
     options.limits.connections_per_address = kConnectionsOfOneAddress;
     options.limits.lines_per_second = kLinesOfOnePeer;
+    options.limits.handshakes_per_second = kHandshakesOfOneAddress;
+    options.limits.http_requests_per_second = kPagesOfOneAddress;
   }
   return options;
 }

@@ -45,6 +45,7 @@ class Requests {
   void on(const proto::SceneList&, Responder);
   void on(const proto::SceneSave&, Responder);
   void on(const proto::SceneOpen&, Responder);
+  void on(const proto::SceneRemove&, Responder);
 
   void on(const proto::StreamSubscribe&, Responder);
   void on(const proto::StreamUnsubscribe&, Responder);

@@ -57,4 +57,13 @@ void Requests::on(const proto::SceneOpen& m, Responder responder) {
   });
 }
 
+void Requests::on(const proto::SceneRemove& m, Responder responder) {
+  p_.store.remove(m.name, [&p = p_, responder](Status removed) {
+    p.loop.post([responder, removed]() mutable {
+      if (!removed) return responder.params_error(removed.error());
+      responder.result(proto::EmptyResult{});
+    });
+  });
+}
+
 }  // namespace posed

@@ -65,7 +65,8 @@ void Connection::start() {
 
 std::unique_ptr<Face> Connection::make_face(Detected detected) {
   const Limits& limits = hub_.options.limits;
-  if (plain_refused(detected)) return std::make_unique<LineFace>(*this, limits.line_bytes);
+  if (detected == Detected::tls) tls_refused();
+  if (detected == Detected::tls || plain_refused(detected)) return std::make_unique<LineFace>(*this, limits.line_bytes);
   if (detected == Detected::http) return std::make_unique<HttpFace>(*this, hub_.site, limits, hub_.tally);
   return std::make_unique<LineFace>(*this, limits.line_bytes);
 }
@@ -193,13 +194,18 @@ bool Connection::sniff() {
   if (first == Wire::kNothingYet) return false;
   sniffed_ = true;
   if (first != kTlsHandshake) return true;
+  if (!hub_.guests.may_encrypt(remote_, hub_.clock.now())) {
+    add(hub_.tally.refused);
+    close("too many TLS handshakes of this address");
+    return false;
+  }
   wire_.encrypt(*hub_.options.tls);
   deadline(hub_.options.limits.http_request);  // for the handshake and what follows it
   return true;
 }
 
 void Connection::on_readable() {
-  if (!sniff()) return update();  // what comes the next moment may be TLS
+  if (!sniff()) return closed_ ? void() : update();  // what comes the next moment may be TLS
   refill(hub_.clock.now());
   std::vector<char>& scratch = hub_.scratch;
   for (int i = 0; i < kReadsInARow; ++i) {

@@ -53,6 +53,7 @@ class Connection final : public Link, public std::enable_shared_from_this<Connec
 
   bool room() const override;
   bool idle() const override { return writer_.idle() && outbox_.replies() == 0; }
+  bool may_ask() override { return hub_.guests.may_ask(remote_, hub_.clock.now()); }
   void hand_up(std::string_view line) override;
   void send(SharedLine bytes) override { outbox_.send(std::move(bytes), Framing::raw); }
   void open(bool websocket) override;
@@ -72,6 +73,7 @@ class Connection final : public Link, public std::enable_shared_from_this<Connec
   std::unique_ptr<Face> make_face(Detected detected);
   bool sniff();
   bool plain_refused(Detected detected);
+  void tls_refused();
   void refill(Nanoseconds now);
   void overflow();
   void check_heartbeat(Nanoseconds now);

@@ -70,6 +70,12 @@ void Connection::arm_allowance() {
   hub_.wakes.at(allowed_, weak_from_this());
 }
 
+// A client that takes us for a TLS server may have been led here, with lines for us in what it says.
+void Connection::tls_refused() {
+  part(close_code::kPolicy, Error{"invalid_request", "no TLS is spoken here", "", "connect with tcp:// or http://"},
+       Owed::forget);
+}
+
 bool Connection::plain_refused(Detected detected) {
   const Options& options = hub_.options;
   if (!options.tls || wire_.encrypted() || (options.plain_on_loopback && remote_.is_loopback())) return false;

@@ -5,9 +5,10 @@
 
 namespace posed::net {
 
-enum class Detected { undecided, http, lines };
+enum class Detected { undecided, http, lines, tls };
 
-// HTTP begins with a method and a space. Undecided only while more bytes could still make one.
+// HTTP begins with a method and a space, TLS with a byte that begins no line. Undecided only while more bytes could
+// still make one.
 Detected detect(std::string_view first_bytes);
 
 }  // namespace posed::net

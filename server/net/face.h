@@ -36,6 +36,7 @@ class Link {
 
   virtual bool room() const = 0;  // for further lines: few enough are unanswered or unread
   virtual bool idle() const = 0;  // all was sent
+  virtual bool may_ask() = 0;     // for a page; false: it has had its share for now
   virtual void hand_up(std::string_view line) = 0;
   virtual void send(SharedLine bytes) = 0;  // as they are
   virtual void open(bool websocket) = 0;    // from here on the peer speaks the protocol

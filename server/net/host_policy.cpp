@@ -31,8 +31,8 @@ std::string host_without_port(std::string_view host) {
   return lower(host);
 }
 
-HostPolicy::HostPolicy(bool loopback, const std::vector<std::string>& hosts, const std::vector<std::string>& origins)
-    : loopback_(loopback) {
+HostPolicy::HostPolicy(bool strict, const std::vector<std::string>& hosts, const std::vector<std::string>& origins)
+    : strict_(strict) {
   for (const std::string& host : hosts) hosts_.push_back(host_without_port(host));
   for (const std::string& origin : origins) origins_.push_back(lower(origin));
   char name[256] = {};
@@ -40,7 +40,7 @@ HostPolicy::HostPolicy(bool loopback, const std::vector<std::string>& hosts, con
 }
 
 bool HostPolicy::host_allowed(std::string_view host) const {
-  if (!loopback_) return true;
+  if (!strict_) return true;
   const std::string name = host_without_port(host);
   return is_address(name) || name == "localhost" || name.ends_with(".localhost") ||
          std::find(hosts_.begin(), hosts_.end(), name) != hosts_.end();

@@ -9,17 +9,17 @@ namespace posed::net {
 
 class HostPolicy {
  public:
-  // `loopback`: bound to a loopback address. `hosts`, `origins`: as in Options.
-  HostPolicy(bool loopback, const std::vector<std::string>& hosts, const std::vector<std::string>& origins);
+  // `strict`: only names of ours. `hosts`, `origins`: as in Options.
+  HostPolicy(bool strict, const std::vector<std::string>& hosts, const std::vector<std::string>& origins);
 
-  // Of a Host header. A name that is not ours, on a loopback address, is another site's that was made to point here
-  // (DNS rebinding). Addresses can't be rebound.
+  // Of a Host header. A name that is not ours is another site's that was made to point here (DNS rebinding): its page
+  // would be of our own origin. Addresses can't be rebound.
   bool host_allowed(std::string_view host) const;
   // Of a WebSocket's Origin header: our own page has the host that it was fetched from.
   bool origin_allowed(std::string_view origin, std::string_view host) const;
 
  private:
-  bool loopback_;
+  bool strict_;
   std::vector<std::string> hosts_, origins_;
 };
 

@@ -73,6 +73,11 @@ bool HttpFace::take_one() {
   buffer_.erase(0, used);
   asked_ = false;
   add(tally_.http_requests);
+  if (!link_.may_ask()) {
+    return answer(plain_reply(429, "too many requests of this address; try again in a second", "Retry-After: 1\r\n"),
+                  false, true),
+           false;
+  }
   const HttpRequest request = request_of(parser.get());
   const HttpReply reply = site_.answer(request);
   if (reply.status == 101) {

@@ -16,9 +16,10 @@ constexpr std::string_view kNoViewer =
 
 // Scripts and connections from here only; the viewer styles its elements, and makes images of its own.
 constexpr std::string_view kSecurity =
-    "Content-Security-Policy: default-src 'self'; style-src 'self' 'unsafe-inline'; connect-src 'self' ws: wss:; "
-    "img-src 'self' data: blob:; frame-ancestors 'self'; base-uri 'none'\r\n"
+    "Content-Security-Policy: default-src 'self'; style-src 'self' 'unsafe-inline'; connect-src 'self'; "
+    "img-src 'self' data: blob:; object-src 'none'; frame-ancestors 'self'; base-uri 'none'; form-action 'none'\r\n"
     "X-Content-Type-Options: nosniff\r\n"
+    "Cross-Origin-Resource-Policy: same-origin\r\n"
     "Referrer-Policy: no-referrer\r\n";
 
 std::string_view reason(int status) {
@@ -43,6 +44,8 @@ std::string_view reason(int status) {
       return "Misdirected Request";
     case 426:
       return "Upgrade Required";
+    case 429:
+      return "Too Many Requests";
     case 431:
       return "Request Header Fields Too Large";
     default:
@@ -125,7 +128,9 @@ HttpReply HttpSite::answer(const HttpRequest& request) {
   }
   if (request.host.empty()) return plain_reply(400, "a Host header is needed");
   if (!policy_.host_allowed(request.host)) {
-    return plain_reply(421, request.host + " is not a name of this daemon; use its address or localhost");
+    return plain_reply(421, request.host +
+                                " is not a name of this daemon; use its address, or start it with --listen.name " +
+                                host_without_port(request.host));
   }
   const std::string_view target = request.target;
   const std::string_view path = target.substr(0, target.find_first_of("?#"));

@@ -10,8 +10,7 @@ void Hub::remove(Connection& connection) {
     subtract(tally.peers);
     handlers.closed(connection.id());
   }
-  const auto there = per_address.find(connection.remote());
-  if (there != per_address.end() && --there->second == 0) per_address.erase(there);
+  guests.leave(connection.remote());
   connections.erase(connection.id());
   if (stopping && connections.empty()) io.stop();
 }

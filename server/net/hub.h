@@ -2,12 +2,11 @@
 #pragma once
 
 #include <boost/asio/io_context.hpp>
-#include <boost/asio/ip/address.hpp>
-#include <map>
 #include <memory>
 #include <unordered_map>
 #include <vector>
 
+#include "server/net/guests.h"
 #include "server/net/http_site.h"
 #include "server/net/server.h"
 #include "server/net/subscriptions.h"
@@ -20,7 +19,8 @@ struct Hub {
       : options(std::move(options_)),
         handlers(std::move(handlers_)),
         clock(clock_),
-        site(HostPolicy(loopback, options.hosts, options.origins), options.viewer, options.tokens),
+        // A page that another site has led here can do nothing without a token; where none is asked for, names count.
+        site(HostPolicy(loopback || !options.tokens, options.hosts, options.origins), options.viewer, options.tokens),
         scratch(64 << 10) {}
 
   const Options options;
@@ -33,7 +33,7 @@ struct Hub {
   boost::asio::io_context io{1};  // before the connections, after all that they use when its handlers are destroyed
   Wakes wakes{io, clock};
   std::unordered_map<ConnectionId, std::shared_ptr<Connection>> connections;
-  std::map<boost::asio::ip::address, std::size_t> per_address;  // connections
+  Guests guests{options.limits};
   ConnectionId next_id = 1;
   bool stopping = false;
 

@@ -103,12 +103,10 @@ void Listener::welcome(tcp::socket socket) {
   error_code error;
   const tcp::endpoint peer = socket.remote_endpoint(error);
   if (error) return;
-  const std::size_t most = hub_.options.limits.connections_per_address;
-  if (most > 0 && hub_.per_address[peer.address()] >= most) return add(hub_.tally.refused);
+  if (!hub_.guests.enter(peer.address(), hub_.clock.now())) return add(hub_.tally.refused);
   add(hub_.tally.accepted);
   const ConnectionId id = hub_.next_id++;
   const auto connection = std::make_shared<Connection>(hub_, std::move(socket), id, show(peer), peer.address());
-  ++hub_.per_address[peer.address()];
   hub_.connections.emplace(id, connection);
   connection->start();
 }

@@ -21,6 +21,8 @@ struct Limits {
   std::size_t connections = 10'000;
   std::size_t connections_per_address = 0;  // 0: as many as there may be
   double lines_per_second = 0.0;            // of one peer; further ones stay unread for as long; 0: no limit
+  double handshakes_per_second = 0.0;       // of TLS, of one address; with more it is closed; 0: no limit
+  double http_requests_per_second = 0.0;    // of one address; with more it is told so and closed; 0: no limit
   std::size_t unanswered = 256;             // lines of one peer; further ones stay unread until some are answered
   std::size_t unread_bytes = 256 << 10;     // of replies to one peer; with more nothing is read from it
   std::size_t replies = 10'000;             // queued for one peer; with more it is told so and closed
@@ -40,7 +42,7 @@ struct Options {
   std::string host = "127.0.0.1";
   std::uint16_t port = proto::kDefaultPort;  // 0: any free one
   std::filesystem::path viewer;              // served at "/"; empty or absent: a page that says how to build it
-  std::vector<std::string> hosts;            // Host names besides the machine's own that are ours, as behind a proxy
+  std::vector<std::string> hosts;            // names besides the machine's own by which browsers may call us
   std::vector<std::string> origins;          // pages of other hosts that may connect: "http://localhost:5173"
   std::shared_ptr<const Tokens> tokens;      // none: the pages of set_page are everybody's
   std::shared_ptr<const TlsContext> tls;     // none: no TLS

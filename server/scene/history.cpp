@@ -17,7 +17,7 @@ History::Added History::add(Step step) {
   if (joins) {
     Step was = *last;
     if (last->change.join(step.change)) {
-      bytes_ += last->change.bytes() - was.change.bytes();
+      weigh(*last);
       last->revision = step.revision;
       last->t_ns = step.t_ns;
       bound();
@@ -27,15 +27,22 @@ History::Added History::add(Step step) {
   }
   step.number = next_number_++;
   step.applied = next_applied_++;
-  bytes_ += step.change.bytes();
   steps_.push_back(std::move(step));
+  weigh(steps_.back());
   bound();
   return {steps_.back().number, std::nullopt};
 }
 
+// What a step keeps changes when it is undone: what stood there and what came change places.
+void History::weigh(Step& step) {
+  bytes_ -= step.bytes;
+  step.bytes = step.change.bytes();
+  bytes_ += step.bytes;
+}
+
 void History::bound() {
   while (steps_.size() > kMostSteps || (bytes_ > kMostBytes && steps_.size() > 1)) {
-    bytes_ -= steps_.front().change.bytes();
+    bytes_ -= steps_.front().bytes;
     steps_.pop_front();
   }
 }
@@ -62,21 +69,23 @@ Step* History::to_redo(const std::string& identity) {
 void History::undone(Step& step) {
   step.undone = true;
   step.undone_at = next_undone_++;
+  weigh(step);
 }
 
 void History::redone(Step& step) {
   step.undone = false;
   step.undone_at = 0;
   step.applied = next_applied_++;
+  weigh(step);
 }
 
 void History::put_back(std::uint64_t number, std::optional<Step> was) {
   const auto found = std::find_if(steps_.begin(), steps_.end(), [&](const Step& s) { return s.number == number; });
   if (found == steps_.end()) return;
-  bytes_ -= found->change.bytes();
+  bytes_ -= found->bytes;
   if (!was) return void(steps_.erase(found));
-  bytes_ += was->change.bytes();
   *found = std::move(*was);
+  bytes_ += found->bytes;
 }
 
 const Step* History::built_upon(const Step& step) const {

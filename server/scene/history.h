@@ -27,6 +27,7 @@ struct Step {
   std::string method, label, gesture;
   Change change;
   std::uint64_t applied = 0;  // orders those that stand: the scene is what they make of the beginning, one by one
+  std::size_t bytes = 0;      // of memory that it is counted with
   bool undone = false;
   std::uint64_t undone_at = 0;  // orders the undone ones; 0: it can not be redone any more
 };
@@ -58,6 +59,7 @@ class History {
   const std::deque<Step>& steps() const { return steps_; }  // oldest first
 
  private:
+  void weigh(Step& step);
   void bound();
 
   std::deque<Step> steps_;

@@ -19,6 +19,10 @@ void bind(sqlite3_stmt* statement, int index, const std::string& text) {
   sqlite3_bind_text(statement, index, text.data(), static_cast<int>(text.size()), SQLITE_STATIC);
 }
 
+Error unknown_scene(const std::string& name) {
+  return {"unknown_scene", "no scene was saved as " + name.substr(0, 64), "/name", "scene.list names them"};
+}
+
 std::string text_of(sqlite3_stmt* statement, int column) {
   return {reinterpret_cast<const char*>(sqlite3_column_text(statement, column)),
           static_cast<std::size_t>(sqlite3_column_bytes(statement, column))};
@@ -43,7 +47,8 @@ Database::Database(const std::filesystem::path& file) : file_(file) {
     throw std::runtime_error(file.string() + " was written by a newer posed (format " + std::to_string(found) +
                              "); it is left as it is: update posed, or choose another directory with --data");
   }
-  if (found < kSchema && number("SELECT count(*) FROM sqlite_master") > 0) refuse("another program made it");
+  const bool ours = number("SELECT count(*) FROM sqlite_master WHERE type = 'table' AND name = 'scene'") > 0;
+  if (found == 0 ? number("SELECT count(*) FROM sqlite_master") > 0 : !ours) refuse("another program made it");
   if (found > 0) check();
   execute("PRAGMA journal_mode = WAL");
   execute("PRAGMA synchronous = FULL");
@@ -186,13 +191,21 @@ Status Database::save(const std::string& name, const std::string& document) {
   return Ok{};
 }
 
+Status Database::remove(const std::string& name) {
+  const Statement statement = prepare("DELETE FROM scene WHERE name = ?1");
+  if (!statement) return failure("removing");
+  bind(statement.get(), 1, name);
+  if (sqlite3_step(statement.get()) != SQLITE_DONE) return failure("removing");
+  if (sqlite3_changes(db_.get()) == 0) return unknown_scene(name);
+  return Ok{};
+}
+
 Result<std::string> Database::load(const std::string& name) {
   const Statement statement = prepare("SELECT document FROM scene WHERE name = ?1");
   if (!statement) return failure("reading");
   sqlite3_bind_text(statement.get(), 1, name.data(), static_cast<int>(name.size()), SQLITE_STATIC);
   const int step = sqlite3_step(statement.get());
-  if (step == SQLITE_DONE)
-    return Error{"unknown_scene", "no scene was saved as " + name, "/name", "scene.list names them"};
+  if (step == SQLITE_DONE) return unknown_scene(name);
   if (step != SQLITE_ROW) return failure("reading");
   return std::string(reinterpret_cast<const char*>(sqlite3_column_text(statement.get(), 0)),
                      static_cast<std::size_t>(sqlite3_column_bytes(statement.get(), 0)));

@@ -21,6 +21,7 @@ class Database {
   StoredScene live();  // throws
   Status commit(const StoredChanges& changes);
   Result<std::string> load(const std::string& name);
+  Status remove(const std::string& name);
   Result<std::vector<std::string>> list();
 
  private:

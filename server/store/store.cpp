@@ -78,6 +78,10 @@ void Store::load(std::string name, std::function<void(Result<std::string>)> done
   impl_->post([this, name = std::move(name), done = std::move(done)] { done(impl_->database.load(name)); });
 }
 
+void Store::remove(std::string name, std::function<void(Status)> done) {
+  impl_->post([this, name = std::move(name), done = std::move(done)] { done(impl_->database.remove(name)); });
+}
+
 void Store::list(std::function<void(Result<std::vector<std::string>>)> done) {
   impl_->post([this, done = std::move(done)] { done(impl_->database.list()); });
 }

@@ -53,6 +53,7 @@ class Store {
   void commit(StoredChanges changes, std::function<void(Status)> done);  // all of it or nothing
   void save(std::string name, std::string document, std::function<void(Status)> done);
   void load(std::string name, std::function<void(Result<std::string>)> done);
+  void remove(std::string name, std::function<void(Status)> done);
   void list(std::function<void(Result<std::vector<std::string>>)> done);
 
  private:

@@ -33,8 +33,10 @@ class TemporaryFolder {
 
 class RunningDaemon {
  public:
-  explicit RunningDaemon(std::vector<std::string> trackers = {}, std::string scene = "standing")
-      : daemon_(config(std::move(trackers), std::move(scene))), thread_([this] { daemon_.run(false); }) {}
+  // `data`: a folder that outlives it; empty: one of its own.
+  explicit RunningDaemon(std::vector<std::string> trackers = {}, std::string scene = "standing",
+                         const std::filesystem::path& data = {})
+      : daemon_(config(std::move(trackers), std::move(scene), data)), thread_([this] { daemon_.run(false); }) {}
   ~RunningDaemon() {
     daemon_.stop();
     thread_.join();
@@ -48,11 +50,11 @@ class RunningDaemon {
   }
 
  private:
-  Config config(std::vector<std::string> trackers, std::string scene) {
+  Config config(std::vector<std::string> trackers, std::string scene, const std::filesystem::path& data) {
     Config c;
     c.port = 0;
     c.trackers = std::move(trackers);
-    c.data = folder_.path();
+    c.data = data.empty() ? folder_.path() : data;
     c.viewer = folder_.path();
     c.scenes = POSED_SOURCE_DIR "/server/scene/templates";
     c.scene_template = std::move(scene);

@@ -58,6 +58,7 @@ const std::map<std::string, SayAnew> kResults{{"session.hello", said_anew<HelloR
                                               {"scene.list", said_anew<SceneListResult>},
                                               {"scene.save", said_anew<RevisionResult>},
                                               {"scene.open", said_anew<RevisionResult>},
+                                              {"scene.remove", said_empty},
                                               {"tracker.list", said_anew<TrackerListResult>},
                                               {"stream.subscribe", said_anew<SubscribeResult>},
                                               {"stream.unsubscribe", said_anew<SubscribeResult>},

@@ -8,6 +8,7 @@
 
 #include "client/lib/client.h"
 #include "tests/bench/stream/contestants.h"
+#include "tests/bench/stream/folder.h"
 #include "tests/bench/stream/measures.h"
 #include "tests/bench/stream/viewers.h"
 
@@ -16,22 +17,6 @@ namespace {
 
 // The newest frame is up to a tick old when a viewer wakes.
 constexpr Nanoseconds kFresh = 10 * kMillisecond;
-
-class Folder {
- public:
-  Folder() {
-    std::string name = (std::filesystem::temp_directory_path() / "posed-bench-XXXXXX").string();
-    path_ = mkdtemp(name.data());
-  }
-  ~Folder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
 
 client::Client connect(const Child& daemon) {
   auto made = client::Client::connect("tcp://127.0.0.1:" + std::to_string(daemon.port()));

@@ -18,6 +18,9 @@ void whole_daemon(BenchOutput& out, int viewers);
 void memory(BenchOutput& out, Verdict& verdict);
 void many_connections(BenchOutput& out, Verdict& verdict);
 void pings(BenchOutput& out, Verdict& verdict);
+// Edits that wait for the disk, with many viewers looking on, and alone.
+void editors_and_viewers(BenchOutput& out, Verdict& verdict);
+void durable_edits(BenchOutput& out);
 // One viewer of many stops reading for ten seconds.
 void stalled_viewer(BenchOutput& out, Verdict& verdict);
 

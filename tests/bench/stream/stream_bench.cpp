@@ -36,6 +36,8 @@ int main(int argc, char** argv) try {
   memory(out, verdict);
   many_connections(out, verdict);
   pings(out, verdict);
+  editors_and_viewers(out, verdict);
+  durable_edits(out);
   stalled_viewer(out, verdict);
   std::printf("\n%d bars held, %d missed\n", verdict.held, verdict.missed);
   return verdict.missed > 0 && !out.quick() ? 1 : 0;

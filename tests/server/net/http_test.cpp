@@ -138,6 +138,56 @@ TEST_F(Http, ForeignHostsAreRefused) {
   EXPECT_TRUE(fetch("GET", "/", "", "").starts_with("HTTP/1.1 400 "));
 }
 
+// A name of somebody else's that was made to point here gives its page our origin: it must not get through, on whatever
+// address we listen. Where tokens are asked for it has none to show.
+TEST(Rebinding, APageThatWasLedHereGetsNothing) {
+  const std::string upgrade =
+      "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+      "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n";
+  const auto asked = [&](std::uint16_t port, const std::string& path, const std::string& host) {
+    RawPeer peer(port);
+    peer.send("GET " + path + " HTTP/1.1\r\nHost: " + host + ":80\r\nOrigin: http://" + host + ":80\r\n" + upgrade +
+              "\r\n");
+    return peer.until("\r\n");
+  };
+  for (const char* address : {"127.0.0.1", "0.0.0.0"}) {
+    Options options = options_on_a_free_port();
+    options.host = address;
+    options.hosts = {"posed.lab.example"};
+    FakeStation open(std::move(options));
+    const std::uint16_t port = open.server.port();
+    for (const char* path : {"/ws", "/", "/metrics"})
+      EXPECT_EQ(asked(port, path, "rebound.example"), "HTTP/1.1 421 Misdirected Request\r\n") << address << path;
+    for (const char* host : {"127.0.0.1", "localhost", "posed.lab.example"})
+      EXPECT_EQ(asked(port, "/ws", host), "HTTP/1.1 101 Switching Protocols\r\n") << address << host;
+    EXPECT_EQ(open.lines, 0);
+  }
+  Options options = options_on_a_free_port();
+  options.host = "0.0.0.0";
+  options.tokens =
+      std::make_shared<const Tokens>(Tokens::parse("viewer ana sha256:" + std::string(64, 'a') + "\n", "the test"));
+  FakeStation closed(std::move(options));
+  EXPECT_EQ(asked(closed.server.port(), "/ws", "station.lab.example"), "HTTP/1.1 101 Switching Protocols\r\n");
+}
+
+TEST_F(Http, OneAddressGetsSoManyPagesASecond) {
+  Options options = options_on_a_free_port();
+  options.limits.http_requests_per_second = 2.0;
+  FakeStation strict(std::move(options));
+  int refused = 0;
+  for (int i = 0; i < 20; ++i) {
+    RawPeer peer(strict.server.port());
+    peer.send("GET /healthz HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n");
+    const std::string answer = peer.rest();
+    if (answer.starts_with("HTTP/1.1 200 ")) continue;
+    ++refused;
+    EXPECT_TRUE(answer.starts_with("HTTP/1.1 429 Too Many Requests\r\n")) << answer;
+    EXPECT_TRUE(has(answer, "Retry-After: 1\r\n"));
+  }
+  EXPECT_GT(refused, 0);
+  EXPECT_EQ(RawPeer(strict.server.port()).call(proto::SessionPing{}).id, 1) << "lines are no pages";
+}
+
 TEST_F(Http, NonsenseIsRefused) {
   RawPeer peer(port());
   peer.send("GET / HTTP/9.9\r\nnonsense\r\n\r\n");

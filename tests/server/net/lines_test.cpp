@@ -321,6 +321,18 @@ TEST(Lines, OneAddressHasSoManyConnectionsAndGetsThemBack) {
   EXPECT_EQ(station.server.counters().refused, 3u);
 }
 
+// Browsers can be made to say lines of somebody's choice in the midst of a TLS handshake: in a session's ticket.
+TEST(Lines, NoneAreTakenOutOfATlsHandshake) {
+  FakeStation station;
+  RawPeer peer(station.server.port());
+  peer.send(std::string("\x16\x03\x01\x02\x00\x01\x00", 7) + "\n" + ping(1) + ping(2));
+  const proto::Incoming answer = peer.incoming();
+  ASSERT_TRUE(answer.error);
+  EXPECT_EQ(answer.error->code, "invalid_request");
+  EXPECT_TRUE(peer.at_end());
+  EXPECT_EQ(station.lines, 0);
+}
+
 TEST(Lines, WhoDoesNotShowWhoItIsIsClosed) {
   Options options = options_on_a_free_port();
   options.limits.admission = 500'000'000;

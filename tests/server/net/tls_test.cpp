@@ -132,6 +132,20 @@ TEST_F(Tls, NonsenseAfterTheFirstByteEndsTheConnection) {
   EXPECT_EQ(other.incoming().id, 1);
 }
 
+TEST_F(Tls, OneAddressMayShakeHandsSoOften) {
+  options.limits.handshakes_per_second = 2.0;
+  FakeStation station(std::move(options));
+  int refused = 0;
+  for (int i = 0; i < 20; ++i) {
+    RawPeer peer(station.server.port());
+    peer.send(std::string("\x16\x03\x01\x00\x05hello", 10));
+    refused += peer.rest().empty();  // else OpenSSL's alert
+  }
+  EXPECT_GT(refused, 0);
+  EXPECT_GE(station.server.counters().refused, static_cast<std::uint64_t>(refused));
+  EXPECT_EQ(RawPeer(station.server.port()).call(proto::SessionPing{}).id, 1) << "lines in the clear are no handshake";
+}
+
 TEST_F(Tls, WhoDawdlesOverTheHandshakeIsClosed) {
   options.limits.http_request = 100'000'000;
   FakeStation station(std::move(options));

@@ -163,6 +163,66 @@ TEST_F(StoreTest, ANewerFormatIsRefusedAndUntouched) {
   EXPECT_EQ(*load(again, "monday"), "document");
 }
 
+// It was taken for another program's.
+TEST_F(StoreTest, TheFirstFormatIsCarriedOver) {
+  std::ifstream in(POSED_SOURCE_DIR "/tests/golden/store/version-1.sql");
+  const std::string old{std::istreambuf_iterator<char>(in), {}};
+  ASSERT_FALSE(old.empty());
+  sql(old.c_str());
+  std::string monday;
+  {
+    Store store(folder);
+    EXPECT_EQ(list(store), (std::vector<std::string>{"empty", "monday"}));
+    monday = *load(store, "monday");
+    EXPECT_TRUE(monday.starts_with(R"({"format":"posed.scene/1")")) << monday;
+    EXPECT_EQ(store.live().revision, 0u) << "it had no live scene";
+    StoredChanges changes;
+    changes.revision = 7;
+    changes.set.push_back({"/goals/g1", 3, "{}"});
+    ASSERT_TRUE(answer<Ok>([&](auto done) { store.commit(changes, done); }));
+  }
+  Store again(folder);
+  EXPECT_EQ(*load(again, "monday"), monday);
+  EXPECT_EQ(again.live().revision, 7u);
+}
+
+TEST_F(StoreTest, AFileThatSaysOurFormatAndHasNoneOfItIsRefusedAndUntouched) {
+  sql("CREATE TABLE address (name TEXT); PRAGMA user_version = 2");
+  const std::string before = bytes(folder / "posed.db");
+  EXPECT_NE(why_not(folder).find("is not a posed database"), std::string::npos) << why_not(folder);
+  EXPECT_TRUE(bytes(folder / "posed.db") == before);
+}
+
+TEST_F(StoreTest, ADamagedFileIsRefusedAndUntouched) {
+  {
+    Store store(folder);
+    for (int i = 0; i < 50; ++i) ASSERT_TRUE(save(store, "scene" + std::to_string(i), std::string(3000, 'x')));
+  }
+  const std::string good = bytes(folder / "posed.db");
+  ASSERT_GT(good.size(), 100'000u);
+  for (const std::size_t at : {good.size() / 2, std::size_t{4096}}) {
+    std::string damaged = good;
+    damaged.replace(at, 4096, std::string(4096, '\x5a'));
+    std::ofstream(folder / "posed.db", std::ios::binary | std::ios::trunc) << damaged;
+    const std::string why = why_not(folder);
+    EXPECT_NE(why.find("left as it is"), std::string::npos) << why;
+    EXPECT_NE(why.find("--data"), std::string::npos) << why;
+    EXPECT_TRUE(bytes(folder / "posed.db") == damaged);
+  }
+}
+
+TEST_F(StoreTest, WhatIsRemovedIsGone) {
+  Store store(folder);
+  ASSERT_TRUE(save(store, "monday", "document"));
+  const auto remove = [&] { return answer<Ok>([&](auto done) { store.remove("monday", done); }); };
+  ASSERT_TRUE(remove());
+  EXPECT_TRUE(list(store).empty());
+  const auto again = remove();
+  ASSERT_FALSE(again);
+  EXPECT_EQ(again.error().code, "unknown_scene");
+  EXPECT_EQ(again.error().path, "/name");
+}
+
 TEST_F(StoreTest, ADiskThatFailsIsAnError) {
   Store store(folder);
   ASSERT_TRUE(save(store, "monday", "document"));
