@@ -23,9 +23,10 @@ TEST(Detect, TellsMethodsFromLines) {
   for (const char* text : {"", "G", "GE", "GET", "P", "PO", "PU", "OPTIONS"}) {
     EXPECT_EQ(detect(text), Detected::undecided) << text;
   }
-  for (const char* text : {"{", "[", " ", "\n", "GOAL", "GET\n", "get / HTTP/1.1", "hello", "\x16\x03\x01"}) {
+  for (const char* text : {"{", "[", " ", "\n", "GOAL", "GET\n", "get / HTTP/1.1", "hello"}) {
     EXPECT_EQ(detect(text), Detected::lines) << text;
   }
+  EXPECT_EQ(detect("\x16\x03\x01"), Detected::tls);
 }
 
 TEST(Sha1, KnownDigests) {
