@@ -110,8 +110,8 @@ void UsbTestbed::plug() {
   text << "P: /devices/usb1\nE: SUBSYSTEM=usb\nE: DRIVER=usb\nE: BUSNUM=001\nE: DEVNUM=" << number
        << "\nE: DEVNAME=" << i.node
        << "\nE: DEVTYPE=usb_device\nA: bConfigurationValue=1\\n\nA: busnum=1\\n\nA: devnum=" << i.address
-       << "\\n\nA: speed=" << (options_.packet > 64 ? 480 : 12) << "\\n\nH: descriptors=" << hex(descriptors_of(options_))
-       << "\n";
+       << "\\n\nA: speed=" << (options_.packet > 64 ? 480 : 12)
+       << "\\n\nH: descriptors=" << hex(descriptors_of(options_)) << "\n";
   GError* error = nullptr;
   if (!umockdev_testbed_add_from_string(i.testbed, text.str().c_str(), &error)) {
     std::fprintf(stderr, "umockdev: %s\n", error->message);

@@ -1,4 +1,5 @@
-// The trackers on USB that must get over the conformance suite, as their own endpoints have them; whoever plays the bus.
+// The trackers on USB that must get over the conformance suite, as their own endpoints have them; whoever plays the
+// bus.
 #pragma once
 
 #include <memory>

@@ -114,7 +114,9 @@ TEST(StationOnKernel, PulledAndPluggedAgainAndAgain) {
     if (i == 4) files = open_files();
   }
   ASSERT_TRUE(run.wait_for_frames(5)) << run.status().message;
-  if (times > 5) EXPECT_LE(open_files(), files + 2);
+  if (times > 5) {
+    EXPECT_LE(open_files(), files + 2);
+  }
   run.stop();
   EXPECT_FALSE(bed->held());
 }
