@@ -16,33 +16,14 @@
 namespace posed::test {
 namespace {
 
-std::string hex(const std::vector<int>& bytes) {
+std::string hex(const std::vector<std::uint8_t>& bytes) {
   std::string text;
-  for (const int byte : bytes) {
+  for (const std::uint8_t byte : bytes) {
     char two[3];
-    std::snprintf(two, sizeof two, "%02x", static_cast<unsigned>(byte) & 0xffu);
+    std::snprintf(two, sizeof two, "%02x", byte);
     text += two;
   }
   return text;
-}
-
-std::string descriptors(const UsbTestbedOptions& o) {
-  std::vector<int> endpoints;
-  std::istringstream words(o.endpoints);
-  int count = 0;
-  for (std::string word; words >> word; ++count) {
-    const bool interrupt = word.ends_with('i');
-    const int type = interrupt ? 3 : 2, interval = interrupt ? 5 : 0;
-    const std::vector<int> one{7, 5, std::stoi(word, nullptr, 16), type, o.packet & 0xff, o.packet >> 8, interval};
-    endpoints.insert(endpoints.end(), one.begin(), one.end());
-  }
-  const int usb = o.packet > 64 ? 2 : 1, total = 18 + 7 * count;
-  std::vector<int> all{18, 1, 0, usb, 0xff, 0, 0, 64, o.vendor & 0xff, o.vendor >> 8, o.product & 0xff, o.product >> 8,
-                       0,  1, 0, 0,   0,    1};
-  const std::vector<int> configuration{9, 2, total, 0, 1, 1, 0, 0x80, 50, 9, 4, 0, 0, count, 0xff, 0, 0, 0};
-  all.insert(all.end(), configuration.begin(), configuration.end());
-  all.insert(all.end(), endpoints.begin(), endpoints.end());
-  return hex(all);
 }
 
 }  // namespace
@@ -86,7 +67,7 @@ std::unique_ptr<UsbTestbed> UsbTestbed::make(UsbTestbedOptions options, std::str
     reason = "it must run under umockdev-wrapper";
     return nullptr;
   }
-  auto device = options.make_device ? options.make_device() : std::make_unique<LibertyEmulator>(options.stations);
+  auto device = device_of(options);
   return std::unique_ptr<UsbTestbed>(new UsbTestbed(std::move(options), std::move(device)));
 }
 
@@ -129,8 +110,8 @@ void UsbTestbed::plug() {
   text << "P: /devices/usb1\nE: SUBSYSTEM=usb\nE: DRIVER=usb\nE: BUSNUM=001\nE: DEVNUM=" << number
        << "\nE: DEVNAME=" << i.node
        << "\nE: DEVTYPE=usb_device\nA: bConfigurationValue=1\\n\nA: busnum=1\\n\nA: devnum=" << i.address
-       << "\\n\nA: speed=" << (options_.packet > 64 ? 480 : 12) << "\\n\nH: descriptors=" << descriptors(options_)
-       << "\n";
+       << "\\n\nA: speed=" << (options_.packet > 64 ? 480 : 12)
+       << "\\n\nH: descriptors=" << hex(descriptors_of(options_)) << "\n";
   GError* error = nullptr;
   if (!umockdev_testbed_add_from_string(i.testbed, text.str().c_str(), &error)) {
     std::fprintf(stderr, "umockdev: %s\n", error->message);

@@ -3,26 +3,15 @@
 // leaves out. Thread-safe. One at a time in a process.
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
 
 #include "tests/support/liberty_emulator.h"
 #include "tests/support/tracker_testbed.h"
+#include "tests/support/usb_options.h"
 
 namespace posed::test {
-
-struct UsbTestbedOptions {
-  std::uint16_t vendor = 0x0f44, product = 0xff20;
-  // LIBERTY HS as its firmware describes it: bulk 82 04 06 88. It talks on 04 and 88.
-  std::string endpoints = "82 04 06 88";  // hexadecimal; with an i behind it: interrupt
-  std::uint8_t out = 0x04, in = 0x88;
-  std::uint8_t stream = 0;  // where cycles go; 0: where answers do
-  int packet = 512;
-  int stations = 2;                                               // of the LIBERTY, where no other device is given
-  std::function<std::unique_ptr<TrackerEmulator>()> make_device;  // unset: a LIBERTY
-};
 
 class UsbTestbed final : public TrackerTestbed {
  public:
