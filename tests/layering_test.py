@@ -42,7 +42,8 @@ ROOMS = {
     "net": Room("server/net", {"common", "proto"}, {"asio", "openssl"}, set()),
     "daemon": Room("server/daemon", {"common", "proto"} | SERVER, {"asio", "cli11"}, set()),
     "client": Room("client/lib", {"common", "proto"}, {"asio", "openssl"}, set()),
-    "cli": Room("client/cli", {"common", "proto", "client"}, {"asio", "openssl", "cli11"}, set()),
+    "view": Room("client/cli/view", {"common", "proto", "client"}, set(), set()),  # before cli, in whose folder it lies
+    "cli": Room("client/cli", {"common", "proto", "client", "view"}, {"asio", "openssl", "cli11"}, set()),
 }
 
 # how a library is included, and how it is linked

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "client/cli/view/view.h"
 #include "client/lib/client.h"
 
 namespace posed::cli {
@@ -13,7 +14,8 @@ inline constexpr int kDone = 0, kRefused = 1, kUsage = 2, kNoDaemon = 3;
 
 struct Session {
   client::Client& client;
-  bool json = false;  // results as the daemon sends them
+  bool json = false;       // results as the daemon sends them
+  std::string where = {};  // the daemon's address, as the user wrote it
 };
 
 struct Watch {
@@ -26,16 +28,45 @@ struct Watch {
 };
 
 int run_status(const Session& session);
+int list_sessions(const Session& session);
 int run_watch(const Session& session, const Watch& watch);
+// `once`: one picture, as text.
+int run_view(const Session& session, const view::Options& options, bool once);
 
 // A line for the file of tokens on standard output; the token itself on standard error. Needs no daemon.
 int make_token(const std::string& role, const std::string& name);
 
+// X.set of any entity: as a message, or by its name and its params as a JSON object.
+int set_entity(const Session& session, const proto::Params& params);
+int set_entity(const Session& session, const std::string& method, const std::string& params);
+
 int list_goals(const Session& session);
-int set_goal(const Session& session, const proto::GoalSet& goal);
-int set_goal(const Session& session, const std::string& params);  // a JSON object: goals of every kind
+int get_goal(const Session& session, const std::string& id);
 int remove_goal(const Session& session, const std::string& id);
 int clear_goals(const Session& session, const std::string& figure);
+
+int list_figures(const Session& session);
+int get_figure(const Session& session, const std::string& id);
+int remove_figure(const Session& session, const std::string& id);
+// `file`: of the figure's document; empty: none, "-": standard input.
+int set_figure(const Session& session, const proto::FigureSet& figure, const std::string& file);
+// `hold` as in figure.pin, or "none".
+int pin_segment(const Session& session, const std::string& figure, const std::string& segment, const std::string& hold);
+int get_joint(const Session& session, const std::string& figure, const std::string& joint, bool degrees);
+int set_joint(const Session& session, const proto::JointSet& joint);
+
+int list_objects(const Session& session);
+int get_object(const Session& session, const std::string& id);
+int remove_object(const Session& session, const std::string& id);
+int list_bindings(const Session& session);
+int get_binding(const Session& session, const std::string& id);
+int remove_binding(const Session& session, const std::string& id);
+
+// `file` of "-" is standard input: the params of edit.apply, or an array of edits.
+int apply_edits(const Session& session, const std::string& file, const std::string& label);
+int undo_edit(const Session& session, std::uint64_t step);  // 0: the last one
+int redo_edit(const Session& session);
+int show_history(const Session& session, int limit);
 
 int get_pose(const Session& session, const std::string& figure);
 int reset_pose(const Session& session, const std::string& figure, const std::string& to);
@@ -47,6 +78,7 @@ int run_solve(const Session& session, const std::string& file, bool batch);
 int list_trackers(const Session& session);
 
 int list_scenes(const Session& session);
+int get_scene(const Session& session);
 int new_scene(const Session& session, const std::string& template_name);
 int save_scene(const Session& session, const std::string& name);
 int open_scene(const Session& session, const std::string& name);

@@ -11,8 +11,35 @@ std::string show(const Attachment& at) {
 }
 
 std::string show(const GoalBase& base) {
-  if (base.kind == GoalBase::Kind::world) return "";
-  return " from " + (base.kind == GoalBase::Kind::sensor ? base.sensor : base.figure + ' ' + base.segment);
+  switch (base.kind) {
+    case GoalBase::Kind::world:
+      return "";
+    case GoalBase::Kind::segment:
+      return " from " + base.figure + ' ' + base.segment;
+    case GoalBase::Kind::sensor:
+      return " from " + base.sensor;
+    case GoalBase::Kind::object:
+      return " from " + base.object;
+  }
+  return "";
+}
+
+void print_goal_entity(const proto::GoalResult& entry) {
+  const Goal& goal = entry.goal;
+  const GoalKind kind = kind_of(goal.payload);
+  std::string line = goal.id + "  " + goal.figure;
+  if (takes_hold(kind)) line += " at " + show(goal.at);
+  if (kind != GoalKind::position) line += std::string("  ") + name_of(kind);
+  if (const Vec3* p = position_of(goal.payload)) line += format("  [%g %g %g] m", p->x, p->y, p->z);
+  line += show(goal.relative_to);
+  line += format("  weight %g", goal.weight.value);
+  if (goal.weight.orientation) line += format(" and %g", *goal.weight.orientation);
+  if (goal.priority != 0) line += format("  priority %d", goal.priority);
+  if (goal.tolerance > 0.0) line += format("  tolerance %g m", goal.tolerance);
+  if (!goal.enabled) line += "  disabled";
+  if (!entry.held_by.empty()) line += "  held by " + entry.held_by;
+  if (!goal.label.empty()) line += "  " + goal.label;
+  print_line(line);
 }
 
 }  // namespace
@@ -20,37 +47,12 @@ std::string show(const GoalBase& base) {
 int list_goals(const Session& session) {
   return request<proto::GoalListResult>(session, proto::GoalList{}, [](const proto::GoalListResult& list) {
     if (list.goals.empty()) print_line("no goals");
-    for (const proto::GoalResult& entry : list.goals) {
-      const Goal& goal = entry.goal;
-      const GoalKind kind = kind_of(goal.payload);
-      std::string line = goal.id + "  " + goal.figure;
-      if (takes_hold(kind)) line += " at " + show(goal.at);
-      if (kind != GoalKind::position) line += std::string("  ") + name_of(kind);
-      if (const Vec3* p = position_of(goal.payload)) line += format("  [%g %g %g] m", p->x, p->y, p->z);
-      line += show(goal.relative_to);
-      line += format("  weight %g", goal.weight.value);
-      if (goal.weight.orientation) line += format(" and %g", *goal.weight.orientation);
-      if (goal.priority != 0) line += format("  priority %d", goal.priority);
-      if (goal.tolerance > 0.0) line += format("  tolerance %g m", goal.tolerance);
-      if (!goal.enabled) line += "  disabled";
-      if (!goal.label.empty()) line += "  " + goal.label;
-      print_line(line);
-    }
+    for (const proto::GoalResult& entry : list.goals) print_goal_entity(entry);
   });
 }
 
-namespace {
-void show_set(const proto::EditResult& result) {
-  print_line(format("%s is set (revision %llu)", result.id.c_str(), static_cast<unsigned long long>(result.revision)));
-}
-}  // namespace
-
-int set_goal(const Session& session, const proto::GoalSet& goal) {
-  return request<proto::EditResult>(session, goal, show_set);
-}
-
-int set_goal(const Session& session, const std::string& params) {
-  return call<proto::EditResult>(session, "goal.set", params, show_set);
+int get_goal(const Session& session, const std::string& id) {
+  return request<proto::GoalResult>(session, proto::GoalGet{id}, print_goal_entity);
 }
 
 int remove_goal(const Session& session, const std::string& id) {

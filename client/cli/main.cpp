@@ -11,5 +11,5 @@ int main(int argc, char** argv) {
   if (options.run_alone) return options.run_alone();
   auto client = client::Client::connect(options.host, std::chrono::seconds(5), options.identity);
   if (!client) return cli::fail(client.error());
-  return options.run({*client, options.json});
+  return options.run({*client, options.json, options.host});
 }

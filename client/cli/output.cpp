@@ -1,5 +1,9 @@
 #include "client/cli/output.h"
 
+#include <fstream>
+#include <iostream>
+#include <iterator>
+
 namespace posed::cli {
 namespace {
 
@@ -25,10 +29,19 @@ int fail(const Error& error) {
   if (!error.hint.empty()) text += "\nposectl: " + error.hint;
   if (errors_as_json) text = proto::encode_error("null", error);
   std::fprintf(stderr, "%s\n", text.c_str());
-  if (error.code == "bad_address" || error.code == "bad_usage") return kUsage;
+  for (const char* ours : {"bad_address", "bad_usage", "bad_file", "no_terminal"})
+    if (error.code == ours) return kUsage;
   const bool no_daemon = error.code == "cannot_connect" || error.code == "connection_lost" || error.code == "timeout" ||
                          error.code == "bad_reply";
   return no_daemon ? kNoDaemon : kRefused;
+}
+
+Result<std::string> read_file(const std::string& file) {
+  if (file == "-") return std::string(std::istreambuf_iterator<char>(std::cin), {});
+  std::ifstream in(file, std::ios::binary);
+  std::string text(std::istreambuf_iterator<char>(in), {});
+  if (!in) return Error{"bad_file", file + " can not be read", "", "name a file, or - for standard input"};
+  return text;
 }
 
 void print_line(std::string_view text) {

@@ -13,6 +13,9 @@ int fail(const Error& error);
 // From now on as JSON-RPC's error object, on a line.
 void say_errors_as_json();
 
+// All of a file; "-" is standard input. Error: "bad_file".
+Result<std::string> read_file(const std::string& file);
+
 void print_line(std::string_view text);
 void print_goal(const proto::GoalFrame& goal);  // with what holds it
 

@@ -9,6 +9,13 @@ int list_scenes(const Session& session) {
   });
 }
 
+int get_scene(const Session& session) {
+  const auto text = session.client.request(proto::SceneGet{});
+  if (!text) return fail(text.error());
+  print_line(session.json ? *text : proto::pretty(*text));
+  return kDone;
+}
+
 int new_scene(const Session& session, const std::string& template_name) {
   return edit(session, proto::SceneNew{template_name}, "the scene is new, from " + template_name);
 }

@@ -1,7 +1,3 @@
-#include <fstream>
-#include <iostream>
-#include <iterator>
-
 #include "client/cli/output.h"
 
 namespace posed::cli {
@@ -37,18 +33,10 @@ void show(const proto::SolveBatchResult& answer) {
   }
 }
 
-Result<std::string> read_all(const std::string& file) {
-  if (file == "-") return std::string(std::istreambuf_iterator<char>(std::cin), {});
-  std::ifstream in(file, std::ios::binary);
-  std::string text(std::istreambuf_iterator<char>(in), {});
-  if (!in) return Error{"bad_file", file + " can not be read", "", "a file with a problem, or - for standard input"};
-  return text;
-}
-
 }  // namespace
 
 int run_solve(const Session& session, const std::string& file, bool batch) {
-  const Result<std::string> problem = read_all(file);
+  const Result<std::string> problem = read_file(file);
   if (!problem) return fail(problem.error());
   session.client.set_timeout(kPatience);
   session.client.on_progress([](std::uint64_t done, std::uint64_t of) {

@@ -16,4 +16,14 @@ int run_status(const Session& session) {
   });
 }
 
+int list_sessions(const Session& session) {
+  return request<proto::SessionListResult>(session, proto::SessionList{}, [](const proto::SessionListResult& list) {
+    for (const proto::SessionEntry& entry : list.sessions) {
+      print_line(format("%-6s  %-21s  %-9s  %-12s  %s %s", entry.session.c_str(), entry.address.c_str(),
+                        entry.face.c_str(), entry.user.empty() ? "-" : entry.user.c_str(), entry.client.name.c_str(),
+                        entry.client.version.c_str()));
+    }
+  });
+}
+
 }  // namespace posed::cli

@@ -2,18 +2,15 @@
 
 #include "client/cli/output.h"
 #include "client/cli/watch.h"
+#include "client/lib/clock.h"
 
 namespace posed::cli {
 namespace {
 
-constexpr int kPings = 5;
 constexpr std::size_t kAges = 100;
 constexpr const char *kHome = "\x1b[H", *kEndOfLine = "\x1b[K\n", *kClearBelow = "\x1b[J";
 
-Nanoseconds now() {
-  return std::chrono::steady_clock::now().time_since_epoch().count();
-}
-
+using client::steady_now;
 using Lines = std::vector<std::string>;
 
 Lines lines_of(const proto::PoseData& data) {
@@ -75,23 +72,12 @@ Result<Shown> read(const std::string& text) {
 
 }  // namespace
 
-Table::Table(client::Client& client) {
-  // The pings with the shortest way there and back decide.
-  Nanoseconds best = INT64_MAX;
-  for (int i = 0; i < kPings; ++i) {
-    const Nanoseconds before = now();
-    const auto ping = client.call<proto::PingResult>(proto::SessionPing{});
-    const Nanoseconds after = now();
-    if (!ping || after - before >= best) continue;
-    best = after - before;
-    clock_offset_ = (ping->receive_t_ns + ping->send_t_ns) / 2 - (before + after) / 2;
-  }
-}
+Table::Table(client::Client& client) : clock_offset_(client::clock_offset(client)) {}
 
 std::string Table::age(Nanoseconds t_ns) {
   if (!clock_offset_) return "";
   if (ages_ms_.size() == kAges) ages_ms_.erase(ages_ms_.begin());
-  ages_ms_.push_back(1e-6 * static_cast<double>(now() + *clock_offset_ - t_ns));
+  ages_ms_.push_back(1e-6 * static_cast<double>(steady_now() + *clock_offset_ - t_ns));
   return format("  age %.1f ms, at most %.1f", ages_ms_.back(), *std::max_element(ages_ms_.begin(), ages_ms_.end()));
 }
 
@@ -100,7 +86,7 @@ Result<std::string> Table::screen(const proto::Incoming& frame, std::uint64_t lo
                      : *frame.stream == proto::Stream::tracker ? read<proto::TrackerData>(frame.data)
                                                                : read<proto::StatsData>(frame.data);
   if (!shown) return shown.error();
-  const Nanoseconds seen = now();
+  const Nanoseconds seen = steady_now();
   if (last_seen_ != 0 && frame.seq > last_seq_) {
     const double rate = 1e9 * static_cast<double>(frame.seq - last_seq_) / static_cast<double>(seen - last_seen_);
     rate_hz_ = rate_hz_ == 0.0 ? rate : 0.9 * rate_hz_ + 0.1 * rate;

@@ -4,6 +4,7 @@
 #include <boost/asio/connect.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
 #include <boost/asio/ssl/context.hpp>
 #include <boost/asio/ssl/host_name_verification.hpp>
 #include <boost/asio/ssl/stream.hpp>
@@ -36,7 +37,7 @@ struct Client::Impl {
   // Runs until `done` or `until`; with a last look when the time is already over.
   bool wait(const bool& done, TimePoint until) {
     io.restart();
-    while (!done && io.run_one_until(until) > 0) {
+    while (!done && !(heeds_wake && woken) && io.run_one_until(until) > 0) {
     }
     if (!done) io.poll();
     return done;
@@ -77,6 +78,7 @@ struct Client::Impl {
   Result<std::string> await_reply(std::int64_t id, TimePoint until);
   void keep(proto::Incoming frame);
 
+  bool heeds_wake = false, woken = false;
   Address address;
   Identity identity;
   Duration timeout{5000}, patience{0};
@@ -141,13 +143,22 @@ Status Client::Impl::handshake(TimePoint until) {
 
 // Says who we are, where that is asked for, and subscribes to what we followed.
 Status Client::Impl::introduce(TimePoint until) {
-  std::vector<proto::Params> requests;
-  if (!identity.token.empty()) {
+  if (!identity.token.empty() || !identity.user.empty() || !identity.resume.empty() || !identity.program.empty()) {
+    const std::size_t space = identity.program.find(' ');
     proto::SessionHello hello;
+    hello.client.name = identity.program.substr(0, space);
+    if (space != std::string::npos) hello.client.version = identity.program.substr(space + 1);
     hello.token = identity.token;
     hello.user = identity.user;
-    requests.emplace_back(std::move(hello));
+    hello.resume = identity.resume;
+    const std::int64_t id = next_id++;
+    const auto done = exchange(id, proto::encode_request(id, hello), until);
+    if (!done) return done.error();
+    const auto result = proto::decode_message<proto::HelloResult>(*done);
+    if (!result) return result.error();
+    identity.resume = result->resume;
   }
+  std::vector<proto::Params> requests;
   for (const auto& [stream, subscription] : subscriptions) requests.emplace_back(subscription);
   for (const proto::Params& request : requests) {
     const std::int64_t id = next_id++;
@@ -237,7 +248,10 @@ Result<proto::Incoming> Client::Impl::receive(TimePoint until) {
         read_done = true;
       });
     }
-    if (!wait(read_done, until)) return late();
+    if (!wait(read_done, until)) {
+      if (heeds_wake && std::exchange(woken, false)) return Error{"woken", "somebody has called wake()", "", ""};
+      return late();
+    }
     reading = false;
     if (read_error) return lose(read_error == asio::error::eof ? "the daemon has closed it" : read_error.message());
     if (!splitter.push(std::string_view(buffer.data(), received))) return lose("a line is too long");
@@ -343,10 +357,16 @@ Status Client::unsubscribe(proto::Stream stream) {
   return Ok{};
 }
 
+void Client::wake() {
+  asio::post(impl_->io, [impl = impl_.get()] { impl->woken = true; });
+}
+
 Result<proto::Incoming> Client::next(Duration timeout) {
   const TimePoint until = from_now(timeout);
   while (impl_->frames.empty()) {
+    impl_->heeds_wake = true;
     auto incoming = impl_->receive(until);
+    impl_->heeds_wake = false;
     if (!incoming && !impl_->lost_why.empty() && impl_->patience.count() > 0) {
       if (const Status there = impl_->restore(); !there) return there.error();
       continue;

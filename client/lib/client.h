@@ -19,9 +19,13 @@ namespace posed::client {
 
 // Who we say that we are.
 struct Identity {
-  std::string token;      // empty: none is asked for, and no hello is said
+  std::string token;      // empty: none is asked for
   std::string user;       // empty: the token's
   std::string authority;  // a file in PEM of whose certificates to trust; empty: those of the system
+  // With `user`, whose edits these are, in every connection that says the same. Empty: the daemon gives one, which the
+  // connections that are made anew say again.
+  std::string resume = {};
+  std::string program = {};  // "posectl 0.1.0": who is said to be there. All empty: no hello is said.
 };
 
 class Client {
@@ -58,8 +62,10 @@ class Client {
 
   Status subscribe(const proto::StreamSubscribe& subscription);
   Status unsubscribe(proto::Stream stream);
-  // The next frame of any stream; acknowledged if its subscription has credit.
+  // The next frame of any stream; acknowledged if its subscription has credit. Error "woken": by wake().
   Result<proto::Incoming> next(Duration timeout);
+  // From any thread: next() returns, at once or when it is called.
+  void wake();
   // Frames that the daemon left out because we read too slowly, or that came while nobody asked for them.
   std::uint64_t lost(proto::Stream stream) const;
 

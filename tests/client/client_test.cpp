@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "client/lib/address.h"
+#include "client/lib/clock.h"
 #include "played_daemon.h"
 
 namespace posed::client {
@@ -160,6 +161,7 @@ TEST(Client, AKeptConnectionComesBackWithItsSubscriptions) {
   std::uint64_t seq = 0;
   PlayedDaemon daemon([&](const proto::Request& request) -> Lines {
     if (std::get_if<proto::StreamAck>(&request.params)) return {};
+    if (std::get_if<proto::SessionHello>(&request.params)) return reply(request, proto::HelloResult{});
     if (!std::get_if<proto::StreamSubscribe>(&request.params)) return reply(request, proto::PingResult{1, 2});
     Lines lines = reply(request, proto::SubscribeResult{proto::Stream::stats});
     for (int i = 0; i < 2; ++i) lines.push_back(proto::encode_stats_frame(++seq, {}) + "\n");
@@ -236,6 +238,61 @@ TEST(Client, LastWordsOfTheDaemonAreHeard) {
   auto client = Client::connect(daemon.address());
   ASSERT_TRUE(client);
   EXPECT_EQ(client->call("session.ping").error().code, "too_large");
+}
+
+TEST(Client, IsWokenFromAnotherThread) {
+  PlayedDaemon daemon([](const proto::Request& request) { return reply(request, proto::PingResult{1, 2}); });
+  auto connected = Client::connect(daemon.address());
+  ASSERT_TRUE(connected);
+  Client& client = *connected;
+  std::thread other([&] { client.wake(); });
+  const auto woken = client.next(std::chrono::minutes(10));
+  other.join();
+  ASSERT_FALSE(woken);
+  EXPECT_EQ(woken.error().code, "woken");
+  // Before it is waited, too; and calls are not disturbed.
+  client.wake();
+  EXPECT_TRUE(client.call("session.ping"));
+  EXPECT_EQ(client.next(std::chrono::minutes(10)).error().code, "woken");
+  EXPECT_EQ(client.next(std::chrono::milliseconds(1)).error().code, "timeout");
+}
+
+TEST(Client, IsTheSameEditorAfterAReconnect) {
+  int hellos = 0;
+  std::string resumed;
+  PlayedDaemon daemon([&](const proto::Request& request) -> std::vector<std::string> {
+    if (const auto* hello = std::get_if<proto::SessionHello>(&request.params)) {
+      resumed = hello->resume;
+      proto::HelloResult result;
+      result.resume = "key";
+      auto lines = reply(request, result);
+      return lines;
+    }
+    if (++hellos == 1) return {"close"};
+    return reply(request, proto::PingResult{1, 2});
+  });
+  Identity ana;
+  ana.user = "ana";
+  auto connected = Client::connect(daemon.address(), std::chrono::seconds(5), ana);
+  ASSERT_TRUE(connected);
+  Client& client = *connected;
+  client.keep_connected(std::chrono::seconds(60));
+  EXPECT_FALSE(client.call("session.ping"));
+  EXPECT_TRUE(client.call("session.ping"));
+  EXPECT_EQ(resumed, "key");
+}
+
+TEST(Client, KnowsTheDaemonsClock) {
+  PlayedDaemon daemon([](const proto::Request& request) {
+    const Nanoseconds ahead = steady_now() + 1'000'000'000'000;
+    return reply(request, proto::PingResult{ahead, ahead});
+  });
+  auto connected = Client::connect(daemon.address());
+  ASSERT_TRUE(connected);
+  Client& client = *connected;
+  const auto offset = clock_offset(client);
+  ASSERT_TRUE(offset);
+  EXPECT_NEAR(static_cast<double>(*offset), 1e12, 5e9);
 }
 
 }  // namespace

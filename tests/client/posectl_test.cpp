@@ -21,7 +21,10 @@ Outcome posectl(const std::string& arguments, const std::string& before = "") {
   std::string errors = ::testing::TempDir() + "posectl-errors-XXXXXX";
   const int fd = mkstemp(errors.data());
   ::close(fd);
-  FILE* pipe = popen((before + " " POSED_PROGRAMS "/posectl " + arguments + " 2>" + errors).c_str(), "r");
+  // Whose edits these are is kept where no other run of the tests finds it.
+  static const std::string kState =
+      "XDG_STATE_HOME=" + ::testing::TempDir() + "posectl-" + std::to_string(getpid()) + ' ';
+  FILE* pipe = popen((before + ' ' + kState + POSED_PROGRAMS "/posectl " + arguments + " 2>" + errors).c_str(), "r");
   Outcome run;
   char chunk[4096];
   while (const std::size_t got = fread(chunk, 1, sizeof chunk, pipe)) run.out.append(chunk, got);
@@ -122,6 +125,8 @@ class Posectl : public ::testing::Test {
  protected:
   Outcome run(const std::string& arguments) { return posectl("--host " + daemon.address() + " " + arguments); }
   std::string last_line() const { return daemon.lines().back(); }
+  // What was said behind the hello.
+  std::string first_line() const { return daemon.lines().at(1); }
   PlayedDaemon daemon{answer};
 };
 
@@ -140,8 +145,8 @@ TEST_F(Posectl, WatchStopsAfterTheCount) {
   EXPECT_EQ(text.code, 0) << text.err;
   EXPECT_EQ(std::count(text.out.begin(), text.out.end(), '\n'), 3);
   EXPECT_TRUE(text.out.starts_with("t 1.000 s  revision 9  body converged  g1 balanced 34.1 mm\n")) << text.out;
-  EXPECT_TRUE(has(daemon.lines().front(), "\"max_rate_hz\":30")) << daemon.lines().front();
-  EXPECT_TRUE(has(daemon.lines().front(), "\"figures\":[\"body\"]"));
+  EXPECT_TRUE(has(first_line(), "\"max_rate_hz\":30")) << first_line();
+  EXPECT_TRUE(has(first_line(), "\"figures\":[\"body\"]"));
   const Outcome json = run("--json watch --count 1");
   EXPECT_EQ(json.code, 0);
   EXPECT_TRUE(json.out.starts_with("{") && has(json.out, "\"t_ns\":1000000000")) << json.out;
@@ -196,7 +201,50 @@ TEST(PosectlAlone, AShellCompletesItsWords) {
   EXPECT_TRUE(has(completed("posectl st"), "status")) << completed("posectl st");
   EXPECT_TRUE(has(completed("posectl goal se"), "set"));
   EXPECT_TRUE(has(completed("posectl watch tr"), "tracker"));
+  EXPECT_TRUE(has(completed("posectl figure pin left_foot or"), "orientation"));
+  EXPECT_EQ(completed("posectl goal set h --compare at_"), "at_least at_most\n");
+  EXPECT_TRUE(has(completed("posectl hi"), "history"));
   EXPECT_TRUE(has(completed("posectl watch pose --c"), "--count --csv")) << completed("posectl watch pose --c");
+}
+
+TEST_F(Posectl, SaysWhoItIsAndIsTheSameEditorEachTime) {
+  ASSERT_EQ(run("--user ana status").code, 0);
+  ASSERT_EQ(run("--user ana status").code, 0);
+  const Lines lines = daemon.lines();
+  const auto resume = [&](std::size_t i) { return lines[i].substr(lines[i].find("\"resume\":"), 45); };
+  EXPECT_TRUE(has(lines[0], R"("name":"posectl")") && has(lines[0], R"("user":"ana")")) << lines[0];
+  EXPECT_EQ(resume(0), resume(2));
+  EXPECT_EQ(resume(0).size(), std::string(R"("resume":"0123456789abcdef0123456789abcdef")").size() + 2) << resume(0);
+}
+
+TEST_F(Posectl, AnEditorWithNoPlaceToKeepItsKeyStillWorks) {
+  EXPECT_EQ(posectl("--host " + daemon.address() + " status", "HOME=/dev/null XDG_STATE_HOME=/dev/null").code, 0);
+}
+
+TEST_F(Posectl, GoalsOfEveryKindHaveOptions) {
+  const auto sends = [&](const std::string& words, std::string_view part) {
+    const Outcome done = run("goal set " + words);
+    EXPECT_EQ(done.code, 0) << words << ": " << done.err;
+    EXPECT_TRUE(has(last_line(), part)) << last_line();
+  };
+  sends("head --orientation 0 0 0 1", R"("orientation":{"quat_xyzw":[0.0,0.0,0.0,1.0]})");
+  sends("right_hand 1 2 3 --orientation 0 0 0 1", R"("position":[1.0,2.0,3.0])");
+  sends("head/eyes --aim 2 0.5 1 --axis 0 1 0", R"("aim":{"axis":[0.0,1.0,0.0],"point":[2.0,0.5,1.0]})");
+  sends("head/eyes --along 0 0 -1", R"("direction":[0.0,0.0,-1.0])");
+  sends("left_hand --plane 0 0 0.75 --above", R"("normal":[0.0,0.0,1.0],"side":"above")");
+  sends("left_hand --line 0 0 1 --direction 0 1 0", R"("line":{"point":[0.0,0.0,1.0],"direction":[0.0,1.0,0.0]})");
+  sends("left_hand --distance-to right_hand --length 0.3 --compare at_least", R"("compare":"at_least")");
+  sends("--balance left_foot right_foot --margin 0.02",
+        R"("balance":{"support":["left_foot","right_foot"],"margin":0.02})");
+  sends("--posture rest --weight 0.5", R"("posture":{"pose":"rest"})");
+  sends("--id g1 --weight 4 --off", R"("enabled":false)");
+  sends("right_hand 0 0 0 --relative-to object:chair --priority -1 --tolerance 0.01",
+        R"("relative_to":{"object":"chair"})");
+  sends("right_hand 0 0 0 --relative-to segment:ana/head", R"("relative_to":{"figure":"ana","segment":"head"})");
+  sends("right_hand 0 0 0 --relative-to sensor:liberty:1", R"("relative_to":{"sensor":"liberty:1"})");
+  for (const char* words : {"right_hand", "", "right_hand 1 2", "right_hand 0 0 0 --relative-to chair", "h --margin 1",
+                            "h --line 0 0 0", "h --distance-to x", "h --aim 0 0 0 --along 0 0 1", "--id g --on --off"})
+    EXPECT_EQ(run(std::string("goal set ") + words).code, 2) << words;
 }
 
 TEST_F(Posectl, Goals) {
@@ -251,6 +299,32 @@ TEST_F(Posectl, CallsAnyMethod) {
 
 TEST_F(Posectl, TheHostMayComeFromTheEnvironment) {
   EXPECT_EQ(posectl("status", "POSED_HOST=" + daemon.address()).code, 0);
+}
+
+TEST(PosectlAlone, AMistypedWordIsGuessed) {
+  EXPECT_TRUE(has(posectl("stauts").err, "has no command stauts\nposectl: did you mean status?"))
+      << posectl("stauts").err;
+  EXPECT_TRUE(has(posectl("goal lst").err, "posectl goal has no command lst\nposectl: did you mean list?"));
+  EXPECT_TRUE(has(posectl("edit undo").err, "did you mean posectl undo?")) << posectl("edit undo").err;
+  EXPECT_TRUE(has(posectl("goal set h 0 0 0 --wieght 3").err, "did you mean --weight?"))
+      << posectl("goal set h 0 0 0 --wieght 3").err;
+  const Outcome json = posectl("--json stauts");
+  EXPECT_EQ(json.code, 2);
+  EXPECT_TRUE(has(json.err, R"("code":"bad_usage")")) << json.err;
+}
+
+TEST(PosectlAlone, HelpAndTheManualAreMadeOfOneTable) {
+  const Outcome help = posectl("help goal set"), same = posectl("goal set --help");
+  EXPECT_EQ(help.code, 0);
+  EXPECT_EQ(help.out, same.out);
+  EXPECT_TRUE(has(help.out, "--relative-to") && has(help.out, "Example:")) << help.out;
+  EXPECT_TRUE(has(posectl("help").out, "watch"));
+  EXPECT_TRUE(has(posectl("help goal st").err, "did you mean set?"));
+  const Outcome man = posectl("help --man");
+  EXPECT_EQ(man.code, 0);
+  for (const char* part :
+       {".TH POSECTL 1", ".SS posectl goal set", ".SS posectl undo", "\\-\\-relative\\-to", "EXIT STATUS"})
+    EXPECT_TRUE(has(man.out, part)) << part;
 }
 
 TEST(PosectlAlone, WrongUsageIsTwo) {
