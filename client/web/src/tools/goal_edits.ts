@@ -1,11 +1,6 @@
 // Edits of goals on their way to the daemon: at most one in flight for each goal, and the newest wins.
-import type { EditReply, Vec3 } from "../protocol/types";
-
-export interface GoalFields {
-  position?: Vec3;
-  weight?: number;
-  enabled?: boolean;
-}
+import type { EditReply } from "../protocol/types";
+import type { GoalFields } from "../state/goals";
 
 export interface EditEvents {
   /** Nothing of this goal is in flight or waiting any more. Revision is null when the last edit was refused. */
@@ -13,18 +8,21 @@ export interface EditEvents {
   failed(error: unknown): void;
 }
 
+/** Edits with the same text are one step to undo. */
+type Gesture = { gesture?: string };
+
 export class GoalEdits {
   private readonly inFlight = new Set<string>();
-  private readonly waiting = new Map<string, GoalFields>();
+  private readonly waiting = new Map<string, GoalFields & Gesture>();
 
   constructor(
     private readonly request: (method: string, params: object) => Promise<EditReply>,
     private readonly events: EditEvents,
   ) {}
 
-  set(goal: string, fields: GoalFields): void {
+  set(goal: string, fields: GoalFields, gesture?: string): void {
     // Fields of different kinds add up; a newer value of one field replaces the older.
-    this.waiting.set(goal, { ...this.waiting.get(goal), ...fields });
+    this.waiting.set(goal, { ...this.waiting.get(goal), ...fields, ...(gesture === undefined ? {} : { gesture }) });
     if (!this.inFlight.has(goal)) void this.send(goal);
   }
 
@@ -47,7 +45,7 @@ export class GoalEdits {
     this.events.settled(goal, revision);
   }
 
-  private take(goal: string): GoalFields | undefined {
+  private take(goal: string): (GoalFields & Gesture) | undefined {
     const fields = this.waiting.get(goal);
     this.waiting.delete(goal);
     return fields;

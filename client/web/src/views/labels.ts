@@ -4,7 +4,7 @@ import type { PagePoint, PaneRect } from "./projection";
 export interface Label {
   key: string;
   text: string;
-  kind: "goal" | "sensor";
+  kind: "goal" | "sensor" | "held" | "segment";
   at: PagePoint;
 }
 
@@ -23,15 +23,16 @@ export class Labels {
     for (const label of labels) {
       const element = this.shown.get(label.key) ?? this.add(label);
       if (element.textContent !== label.text) element.textContent = label.text;
+      element.dataset["kind"] = label.kind;
       const { x, y, depth } = label.at;
       element.style.transform = `translate(${Math.round(x - rect.left)}px, ${Math.round(y - rect.top)}px)`;
       element.hidden = Math.abs(depth) > 1;
     }
   }
 
-  private add({ key, kind }: Label): HTMLElement {
+  private add({ key }: Label): HTMLElement {
     const element = document.createElement("span");
-    element.className = `label label-${kind}`;
+    element.className = "label";
     this.pane.append(element);
     this.shown.set(key, element);
     return element;

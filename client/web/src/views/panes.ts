@@ -1,15 +1,26 @@
-// The four panes of the page that lie over the one canvas: titles, places, and which one is maximised.
+// The four panes of the page that lie over the one canvas: titles, sizes, and which one is maximised.
 import { titles, viewNames, type ViewName } from "./names";
 import type { PaneRect } from "./projection";
+import { Splitters, type Split } from "./splitters";
 
 export class Panes {
   readonly elements: Record<ViewName, HTMLElement>;
   maximised: ViewName | null = null;
   version = 0;
+  private readonly splitters: Splitters;
 
   constructor(private readonly parent: HTMLElement) {
     this.elements = Object.fromEntries(viewNames.map((name) => [name, this.build(name)])) as Record<ViewName, HTMLElement>;
+    this.splitters = new Splitters(parent, () => this.version++);
     new ResizeObserver(() => this.version++).observe(parent);
+  }
+
+  get split(): Split {
+    return this.splitters.split;
+  }
+
+  set split(split: Split) {
+    this.splitters.split = split;
   }
 
   toggle(name: ViewName | null): void {
@@ -27,12 +38,19 @@ export class Panes {
     return this.elements[name].getBoundingClientRect();
   }
 
+  /** What stands in a pane's title beside its name. */
+  says(name: ViewName, text: string): void {
+    const says = this.elements[name].querySelector(".pane-says");
+    if (says && says.textContent !== text) says.textContent = text;
+  }
+
   private build(name: ViewName): HTMLElement {
     const { key, name: called, axes, says } = titles[name];
     const pane = document.createElement("section");
     pane.className = `pane pane-${name}`;
     pane.dataset["testid"] = `view-${name}`;
     pane.dataset["view"] = name;
+    pane.setAttribute("aria-label", `${called} view`);
     const title = document.createElement("header");
     title.dataset["testid"] = `title-${name}`;
     title.title = `Double-click or press ${key} to maximise`;
