@@ -19,7 +19,8 @@ export const checks = [
   ["every kind of goal can be made, and its handle dragged", kinds],
   ["an orientation goal is turned by its rings", turns],
   ["what is pointed at is labelled with distance and weight", labels],
-  ["what the daemon refuses is said", refusal],
+  ["a goal that is taken away under the hand is said", refusal],
+  ["what the daemon refuses is said, with its hint", refused],
 ];
 
 export async function makeByClick(page, segment = "right_hand", view = "front") {
@@ -227,5 +228,14 @@ async function refusal({ page }) {
   await page.mouse.move(from.x + 30, from.y + 30, { steps: 3 });
   await page.mouse.up();
   await page.getByTestId("toast").waitFor({ state: "visible" });
-  assert.match(await page.getByTestId("toast").textContent(), /goal/);
+  assert.match(await page.getByTestId("toast").textContent(), /removed the goal right hand/);
+}
+
+async function refused({ page }) {
+  await page.keyboard.press("n");
+  await page.getByTestId("save-name").fill("no such/name");
+  await page.getByTestId("save-scene").click();
+  await page.keyboard.press("Escape");
+  await until(async () => /[./]/.test(await page.getByTestId("toast").textContent()), "the refusal");
+  assert.ok((await page.getByTestId("toast").locator(".toast-hint").textContent()).length > 0);
 }

@@ -1,9 +1,10 @@
-// The joint of the chosen segment: half-plane, deviation and twist on sliders, or its one angle; its padlock and its pin.
+// The joint of the chosen segment: a ball's half-plane, deviation and twist on sliders, or the angles of its axes; its
+// padlock and its pin.
 import { html, nothing, type TemplateResult } from "lit-html";
-import type { JointReply, PinDocument } from "../protocol/types";
+import type { JointReply, PinDocument, Quat } from "../protocol/types";
 import type { ChosenSegment, Model } from "../state/model";
 import { degreesText, lengthText, plain } from "../state/words";
-import { lockOf, setJoint, toggleLock } from "../tools/joints";
+import { axisName, lockOf, setJoint, toggleLock, universalAngles, universalTurn } from "../tools/joints";
 import type { Requests } from "../tools/requests";
 import { padlock } from "./body_panel";
 import { Panel, clicked, section } from "./panel";
@@ -21,6 +22,7 @@ export class JointPanel extends Panel {
   private readFor = "";
   private readMs = -Infinity;
   private reading = false;
+  private readonly planes = new Map<string, number>();
 
   constructor(
     model: Model,
@@ -73,14 +75,36 @@ export class JointPanel extends Panel {
         change: (value, gesture) => setJoint(this.model, this.requests, chosen.figure, joint.joint, value, gesture),
       });
     }
+    if (joint.type === "universal") return this.universal(chosen, joint.value as Quat, key);
     if (joint.halfplane === undefined) return html`<p class="note">This joint moves freely: drag its gizmo, or give the segment a goal.</p>`;
-    const now = () => Object.fromEntries(kTurns.map(([name]) => [name, shownValue(key(name), joint[name] ?? 0)])) as { halfplane: number; deviation: number; twist: number };
+    // Where nothing deviates there is no half-plane to read: the one that was chosen last is kept for when something does.
+    if ((joint.deviation ?? 0) > 0.02) this.planes.set(key("halfplane"), joint.halfplane);
+    const values = { ...joint, halfplane: this.planes.get(key("halfplane")) ?? joint.halfplane };
+    const now = () => Object.fromEntries(kTurns.map(([name]) => [name, shownValue(key(name), values[name] ?? 0)])) as { halfplane: number; deviation: number; twist: number };
     return html`${kTurns.map(([name, label, min, max]) => {
-      const value = joint[name] ?? 0;
+      const value = values[name] ?? 0;
       return slider({
         key: key(name), label, testid: `joint-${name}`, min, max, step: 0.005, value, text: degreesText(shownValue(key(name), value)), disabled,
-        // A half-plane says nothing where nothing deviates from it.
-        change: (_, gesture) => setJoint(this.model, this.requests, chosen.figure, joint.joint, straightened(now()), gesture),
+        change: (moved, gesture) => {
+          if (name === "halfplane") this.planes.set(key(name), moved);
+          setJoint(this.model, this.requests, chosen.figure, joint.joint, straightened(now()), gesture);
+        },
+      });
+    })}`;
+  }
+
+  /** Two axes have two angles: a half-plane that is free to choose would be none of theirs. */
+  private universal({ figure, document }: ChosenSegment, value: Quat, key: (name: string) => string): TemplateResult {
+    const { joint, touch_point } = document;
+    const axes = joint?.axes ?? [];
+    const angles = universalAngles(value, axes);
+    const now = () => angles.map((angle, i) => shownValue(key(`axis ${i}`), angle)) as [number, number];
+    return html`${axes.map((axis, i) => {
+      const name = axisName(axis, touch_point, i);
+      const [min, max] = joint?.limits?.[i] ?? [-Math.PI, Math.PI];
+      return slider({
+        key: key(`axis ${i}`), label: name, testid: `joint-${name}`, min, max, step: 0.005, value: angles[i] ?? 0, text: degreesText(now()[i] ?? 0), disabled: !this.model.mayEdit,
+        change: (_, gesture) => setJoint(this.model, this.requests, figure, joint!.name, universalTurn(now(), axes), gesture),
       });
     })}`;
   }

@@ -29,6 +29,7 @@ import { People } from "./people";
 import { apply, identity, multiply, quatOf } from "./place";
 import { applySceneFrame, emptyScene, type SceneState } from "./scene";
 import { defaultSettings, type Settings } from "./settings";
+import { goalName } from "./words";
 
 const kTopics = [
   "connection", "figures", "pose", "scene", "samples", "trackers", "menu", "local", "toast", "people", "history", "ghosts", "cameras", "settings",
@@ -175,7 +176,11 @@ export class Model {
   takeScene(frame: SceneFrame, nowMs = 0): void {
     this.scene = applySceneFrame(this.scene, frame);
     const { goals } = this.scene.document;
-    if (this.selectedGoal !== null && !(this.selectedGoal in goals)) this.selectedGoal = null;
+    if (this.selectedGoal !== null && !(this.selectedGoal in goals)) {
+      const by = "by" in frame && frame.by && frame.by !== this.people.me ? this.people.nameOf(frame.by) : "";
+      if (by) this.say(`${by} removed the goal ${goalName(this.selectedGoal)}`);
+      this.selectedGoal = null;
+    }
     if ("patch" in frame && this.people.edited(frame.by, frame.patch, nowMs)) this.touch("people");
     this.touch("scene");
   }

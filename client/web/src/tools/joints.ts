@@ -1,5 +1,5 @@
 // Joints set by hand: by the paper's half-plane, deviation and twist, by turning the segment, and held by a padlock.
-import type { JointReply, JointValue, Quat, Transform } from "../protocol/types";
+import type { JointReply, JointValue, Quat, Transform, Vec3 } from "../protocol/types";
 import type { ChosenSegment, Model } from "../state/model";
 import { conjugate, identity, multiply, quatOf, rotate, tidy, unit } from "../state/place";
 import type { Edit, Requests } from "./requests";
@@ -81,6 +81,30 @@ export function toggleLock(model: Model, requests: Requests, figure: string, joi
     const posture = { joints: { [joint]: now.value } };
     void requests.edit("goal.set", { id: lockId(figure, joint), figure, posture, weight: kLockWeight, label: `${joint.replaceAll("_", " ")} held` });
   }
+}
+
+/** A universal joint's two angles, about its first axis and then its second, which stand on each other. */
+export function universalAngles([x, y, z, w]: Quat, axes: readonly Vec3[]): [number, number] {
+  const about = (axis: Vec3 | undefined) => (axis ? 2 * Math.atan2(x * axis[0] + y * axis[1] + z * axis[2], w) : 0);
+  return [within(about(axes[0])), within(about(axes[1]))];
+}
+
+export function universalTurn([first, second]: readonly [number, number], axes: readonly Vec3[]): Quat {
+  const about = (axis: Vec3 | undefined, angle: number): Quat => {
+    const s = Math.sin(angle / 2);
+    return axis ? [axis[0] * s, axis[1] * s, axis[2] * s, Math.cos(angle / 2)] : [0, 0, 0, 1];
+  };
+  return tidy(unit(multiply(about(axes[0], first), about(axes[1], second))));
+}
+
+function within(angle: number): number {
+  return angle > Math.PI ? angle - 2 * Math.PI : angle < -Math.PI ? angle + 2 * Math.PI : angle;
+}
+
+/** What a turn about this axis does to the limb: it twists it, or bends it. */
+export function axisName(axis: Vec3, limb: Vec3, index: number): string {
+  const along = Math.abs(axis[0] * limb[0] + axis[1] * limb[1] + axis[2] * limb[2]) / (Math.hypot(...limb) || 1);
+  return along > 0.9 ? "twist" : index === 0 ? "bend" : "tilt";
 }
 
 /** Knees bend forward and elbows back: a pole that the limb's middle joint is to point at, where it points now. */
