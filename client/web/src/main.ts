@@ -28,6 +28,7 @@ import { browserStore, tabStore } from "./tools/stores";
 import type { Theme } from "./views/palette";
 import { Views } from "./views/views";
 
+await painted();
 const model = new Model();
 model.settings = loadSettings(browserStore());
 let session: Session | null = null;
@@ -80,7 +81,7 @@ const tabs = new Tabs([
 ]);
 const hints = new Hints(model, () => model.change({ hintsDone: true }));
 const toast = new Toast(model);
-document.body.prepend(bar.root, hints.root);
+document.getElementById("first")?.replaceWith(bar.root, hints.root);
 document.body.append(tabs.root, toast.root, help.root, gallery.root);
 
 listenToPointer(views, model, requests);
@@ -93,6 +94,14 @@ const link = readLink(location.hash);
 if (link) followLink(link, views, model);
 connection.connect();
 requestAnimationFrame(frame);
+
+/** What the page's HTML says is on the screen before WebGL is asked for, which can take long. A hidden page paints nothing. */
+function painted(): Promise<void> {
+  return new Promise((resolve) => {
+    requestAnimationFrame(() => setTimeout(resolve));
+    setTimeout(resolve, 300);
+  });
+}
 
 function frame(): void {
   const start = performance.now();

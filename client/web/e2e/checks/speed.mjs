@@ -7,6 +7,7 @@ const kBytes = 400 * 1024;
 const kFigures = 5;
 const kGoalsEach = 8;
 const kWorkMs = 4;
+const kWindow = 16;
 
 export const checks = [
   ["less than 400 KiB, compressed, come to the browser", bytes],
@@ -33,7 +34,9 @@ async function firstPaint({ open }) {
   return `after ${Math.round(ms)} ms (wanted: 1500)`;
 }
 
-async function work({ page }) {
+async function work({ open }) {
+  // Small, so that a processor that draws lets some frames through; the script has the same work.
+  const page = await open({ viewport: { width: 640, height: 420 } });
   const { revision: begun } = await call(page, "scene.new", { template: "standing", force: true });
   const segments = ["left_hand", "right_hand", "head", "upper_torso", "left_lower_arm", "right_lower_arm", "left_upper_leg", "right_upper_leg"];
   const { results } = await call(page, "edit.apply", {
@@ -48,23 +51,22 @@ async function work({ page }) {
   const { revision } = await call(page, "edit.apply", { label: "goals", edits: goals });
   await until(async () => (await state(page)).poseRevision >= revision && revision > begun, "the crowd's pose");
   await page.keyboard.press("f");
-  await page.getByTestId("tab-goals").click();
   // A goal that wanders keeps all of it moving. The best of some windows: the rest is what else the machine does.
   let moved = 0;
   const medians = [];
-  for (let window = 0; window < 5; window++) {
+  for (let window = 0; window < 4; window++) {
     const before = (await page.evaluate(() => window.posed.work)).length;
     await until(async () => {
       await call(page, "goal.set", { id: `g${moved % goals.length}`, position: [0.3 + 0.1 * Math.sin(moved), 0.1, 1 + 0.01 * (moved % 9)] });
       moved++;
-      return (await page.evaluate(() => window.posed.work)).length - before >= 30 || (await page.evaluate(() => window.posed.work)).length < before;
+      return (await page.evaluate(() => window.posed.work)).length - before >= kWindow || (await page.evaluate(() => window.posed.work)).length < before;
     }, "frames");
-    const last = (await page.evaluate(() => window.posed.work)).slice(-30).sort((a, b) => a - b);
-    medians.push(last[15]);
+    const last = (await page.evaluate(() => window.posed.work)).slice(-kWindow).sort((a, b) => a - b);
+    medians.push(last[kWindow / 2]);
   }
   const best = Math.min(...medians);
   assert.ok(best < kWorkMs, `${best.toFixed(2)} ms a frame in the best of ${medians.map((ms) => ms.toFixed(2))}`);
-  return `${best.toFixed(2)} ms (median of 30 frames, the best of ${medians.map((ms) => ms.toFixed(2)).join(" ")})`;
+  return `${best.toFixed(2)} ms (median of ${kWindow} frames, the best of ${medians.map((ms) => ms.toFixed(2)).join(" ")})`;
 }
 
 async function frames({ page }) {

@@ -1,6 +1,6 @@
 // Two people in one scene.
 import assert from "node:assert/strict";
-import { begin, distance, project, state, until } from "../browser.mjs";
+import { distance, project, state, until } from "../browser.mjs";
 import { drags, makeByClick } from "./goals.mjs";
 
 export const needs = { user: "ana" };
@@ -57,6 +57,6 @@ async function renames({ page }) {
   await other.getByTestId("tab-together").click();
   await other.getByTestId("my-name").fill("boris");
   await other.getByTestId("my-name").blur();
+  await page.getByTestId("tab-together").click();
   await until(async () => (await page.getByTestId("together-panel").textContent()).includes("boris"), "the new name");
-  await begin(page, "standing");
 }

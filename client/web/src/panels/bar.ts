@@ -53,7 +53,7 @@ export class Bar extends Panel {
     const tool = (testid: string, text: string, title: string, on: boolean, run: () => void, edits = false) =>
       html`<button type="button" data-testid=${testid} title=${title} aria-pressed=${on} ?disabled=${edits && !model.mayEdit} @click=${clicked(run)}>${text}</button>`;
     return html`
-      <span class="brand">posed</span>
+      <h1 class="brand">posed</h1>
       <button type="button" class="connection" data-testid="connection" data-phase=${phase} title=${phase === "lost" ? "Click to try now" : daemonText(model)}
         @click=${() => phase === "lost" && this.actions.reconnect()}>${connectionText(model.connection, nowMs)}</button>
       <span role="status" class="waiting" data-testid="waiting" ?hidden=${waiting === 0}>${waiting} ${waiting === 1 ? "edit waits" : "edits wait"}</span>

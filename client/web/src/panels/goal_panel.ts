@@ -96,7 +96,7 @@ export class GoalPanel extends Panel {
     const { model, requests } = this;
     const target = model.goalTarget(id);
     const number = (field: "priority" | "tolerance", value: number, step: number, unit = "") => html`<label class="field">${field}${unit}
-      <input type="number" step=${step} data-testid="goal-${field}" .value=${live(String(value))} ?disabled=${!model.mayEdit}
+      <input type="number" step=${step} data-testid="goal-${field}" .value=${String(value)} ?disabled=${!model.mayEdit}
         @change=${(event: Event) => this.setNumber(id, field, (event.target as HTMLInputElement).valueAsNumber)} /></label>`;
     return html`<div class="details">
       ${target && model.movable(id) ? html`<div class="line fields">${(["x", "y", "z"] as const).map((axis, i) => this.coordinate(id, axis, i, target))}</div>` : nothing}
@@ -118,7 +118,7 @@ export class GoalPanel extends Panel {
       if (Number.isFinite(value)) this.requests.moveGoal(id, target.map((old, i) => (i === index ? value : old)) as Vec3, undefined);
     };
     return html`<label class="field axis-${axis}">${axis.toUpperCase()}
-      <input type="number" step=${scale / 100} data-testid="goal-${axis}" .value=${live((target[index]! * scale).toFixed(scale === 1 ? 3 : 0))} ?disabled=${!this.model.mayEdit} @change=${set} /></label>`;
+      <input type="number" step=${scale / 100} data-testid="goal-${axis}" .value=${(target[index]! * scale).toFixed(scale === 1 ? 3 : 0)} ?disabled=${!this.model.mayEdit} @change=${set} /></label>`;
   }
 
   private setNumber(id: string, field: "priority" | "tolerance", value: number): void {

@@ -64,7 +64,9 @@ export class Tabs {
     if (by === undefined) return;
     event.preventDefault();
     event.stopPropagation();
-    this.show((this.open + by + this.tabs.length) % this.tabs.length);
+    // From the tab that has the focus, whichever is open.
+    const now = this.buttons.indexOf(event.currentTarget as HTMLButtonElement);
+    this.show((now + by + this.tabs.length) % this.tabs.length);
     this.buttons[this.open]?.focus();
   }
 }
