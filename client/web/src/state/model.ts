@@ -82,6 +82,9 @@ export class Model {
   figures = new Map<string, FigureDocument>();
   poses = new Map<string, FigurePose>();
   poseRevision = -1;
+  /** By goal; made anew when first asked for after a pose. */
+  private goalPoses = new Map<string, GoalPose>();
+  private goalPosesFor = -1;
   /** Of the newest pose, on the daemon's clock. */
   poseTimeNs = 0;
   scene: SceneState = emptyScene;
@@ -150,6 +153,7 @@ export class Model {
   setFigures(replies: FigureReply[]): void {
     this.figures = new Map(replies.map(({ id, document }) => [id, document]));
     for (const id of this.poses.keys()) if (!this.figures.has(id)) this.poses.delete(id);
+    this.goalPosesFor = -1;
     if (this.selectedSegment && !this.chosenSegment()) this.selectedSegment = null;
     this.touch("figures");
   }
@@ -251,11 +255,11 @@ export class Model {
   }
 
   goalPose(id: string): GoalPose | undefined {
-    for (const pose of this.poses.values()) {
-      const found = pose.goals.find((goal) => goal.id === id);
-      if (found) return found;
+    if (this.goalPosesFor !== this.version.pose) {
+      this.goalPosesFor = this.version.pose;
+      this.goalPoses = new Map([...this.poses.values()].flatMap(({ goals }) => goals.map((goal) => [goal.id, goal] as const)));
     }
-    return undefined;
+    return this.goalPoses.get(id);
   }
 
   /** Where the cube is: under the hand, else where the solver pulls to, else where the document says. */

@@ -2,6 +2,7 @@
 import type { PatchOperation, SessionInfo } from "../protocol/types";
 
 const kActiveMs = 2500;
+const kMostGoals = 2;
 
 interface Touch {
   session: string;
@@ -36,10 +37,9 @@ export class People {
   /** Notes an edit of others; true where it was one. */
   edited(by: string | undefined, patch: readonly PatchOperation[], nowMs: number): boolean {
     if (by === undefined || by === this.me || by === "") return false;
-    for (const { path } of patch) {
-      const [, map, id] = path.split("/");
-      if (map === "goals" && id) this.touched.set(id, { session: by, untilMs: nowMs + kActiveMs });
-    }
+    const goals = new Set(patch.flatMap(({ path }) => (/^\/goals\/[^/]+/.test(path) ? [path.split("/")[2] as string] : [])));
+    // A hand edits one thing or two; a whole scene that changes is no news of each of its goals.
+    if (goals.size <= kMostGoals) for (const id of goals) this.touched.set(id, { session: by, untilMs: nowMs + kActiveMs });
     return true;
   }
 

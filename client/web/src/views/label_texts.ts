@@ -3,11 +3,13 @@ import { Vector3 } from "three";
 import type { Model } from "../state/model";
 import { goalName, lengthText, weightText } from "../state/words";
 import type { Label } from "./labels";
-import type { PagePoint } from "./projection";
 
-export function labelsOf(model: Model, at: (point: Vector3) => PagePoint): Label[] {
-  const labels: Label[] = [...model.samples.values()].map(({ sensor, position }) => ({
-    key: `sensor ${sensor}`, text: sensor, kind: "sensor", at: at(new Vector3(...position)),
+/** A label with its place in the world: where that is on the page, each view says. */
+export type LabelText = Omit<Label, "at"> & { point: Vector3 };
+
+export function labelTexts(model: Model): LabelText[] {
+  const labels: LabelText[] = [...model.samples.values()].map(({ sensor, position }) => ({
+    key: `sensor ${sensor}`, text: sensor, kind: "sensor", point: new Vector3(...position),
   }));
   const { goals } = model.scene.document;
   const now = performance.now();
@@ -21,13 +23,13 @@ export function labelsOf(model: Model, at: (point: Vector3) => PagePoint): Label
     const who = holder ? `held by ${holder}` : editing ? `${editing} edits` : "";
     const numbers = pose && pointed ? [lengthText(pose.error, model.settings.lengths), `weight ${weightText(goal.weight)}`] : [];
     const text = [goal.label || goalName(id), ...numbers, who].filter(Boolean).join("  ·  ");
-    labels.push({ key: `goal ${id}`, text, kind: who ? "held" : "goal", at: at(new Vector3(...target)) });
+    labels.push({ key: `goal ${id}`, text, kind: who ? "held" : "goal", point: new Vector3(...target) });
   }
   if (model.hoveredSegment && !model.hoveredGoal) {
     const transform = model.segmentTransform(model.hoveredSegment.figure, model.hoveredSegment.segment);
     const hint = model.hoveredPlace;
-    if (hint) labels.push({ key: "segment", text: hint.text, kind: "segment", at: at(new Vector3(...hint.point)) });
-    else if (transform) labels.push({ key: "segment", text: goalName(model.hoveredSegment.segment), kind: "segment", at: at(new Vector3(transform[0], transform[1], transform[2])) });
+    if (hint) labels.push({ key: "segment", text: hint.text, kind: "segment", point: new Vector3(...hint.point) });
+    else if (transform) labels.push({ key: "segment", text: goalName(model.hoveredSegment.segment), kind: "segment", point: new Vector3(transform[0], transform[1], transform[2]) });
   }
   return labels;
 }

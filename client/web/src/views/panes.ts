@@ -8,11 +8,17 @@ export class Panes {
   maximised: ViewName | null = null;
   version = 0;
   private readonly splitters: Splitters;
+  private rects!: Record<ViewName, DOMRect>;
+  private measuredFor = -1;
 
   constructor(private readonly parent: HTMLElement) {
     this.elements = Object.fromEntries(viewNames.map((name) => [name, this.build(name)])) as Record<ViewName, HTMLElement>;
     this.splitters = new Splitters(parent, () => this.version++);
-    new ResizeObserver(() => this.version++).observe(parent);
+    const resized = new ResizeObserver(() => this.version++);
+    resized.observe(parent);
+    // What stands above can come and go and leave the size as it is.
+    resized.observe(document.body);
+    window.addEventListener("resize", () => this.version++);
   }
 
   get split(): Split {
@@ -34,8 +40,13 @@ export class Panes {
     return viewNames.filter((name) => !this.elements[name].hidden);
   }
 
+  /** Asking the browser may make it lay the page out, so it is asked once for each change. */
   rect(name: ViewName): PaneRect {
-    return this.elements[name].getBoundingClientRect();
+    if (this.measuredFor !== this.version) {
+      this.measuredFor = this.version;
+      this.rects = Object.fromEntries(viewNames.map((view) => [view, this.elements[view].getBoundingClientRect()])) as Record<ViewName, DOMRect>;
+    }
+    return this.rects[name];
   }
 
   /** What stands in a pane's title beside its name. */

@@ -8,7 +8,7 @@ import { GhostView } from "./ghost_view";
 import { Gizmo, type GizmoPlace } from "./gizmo";
 import { GoalView } from "./goal_view";
 import { Labels } from "./labels";
-import { labelsOf } from "./label_texts";
+import { labelTexts, type LabelText } from "./label_texts";
 import { LimitView } from "./limit_view";
 import { titles, viewNames, type ViewName } from "./names";
 import { ObjectView } from "./object_view";
@@ -72,15 +72,16 @@ export class Views {
     const rider = riderOf(model);
     this.cameras.ride(rider);
     this.panes.says("perspective", model.rides ? ("eyes" in model.rides ? `eyes of ${model.rides.eyes}` : `camera ${model.rides.camera}`) : titles.perspective.says);
-    this.resize();
+    const outer = this.resize();
     const centre = this.cameras.centre("perspective");
     this.stage.shine(centre, 2.6);
     this.renderer.shadowMap.needsUpdate = true;
+    const texts = labelTexts(model);
     const visible = this.panes.visible();
     const first = visible[0];
     if (first) this.gizmo.put(gizmo, this.cameras.camera(first, this.panes.rect(first)));
     this.stage.scene.updateMatrixWorld();
-    for (const name of visible) this.drawPane(name, model);
+    for (const name of visible) this.drawPane(name, outer, texts);
     this.drawn = [...versions, this.cameras.version, this.panes.version, this.frameAt, theme].join();
     return true;
   }
@@ -153,8 +154,7 @@ export class Views {
     return box;
   }
 
-  private drawPane(name: ViewName, model: Model): void {
-    const outer = this.area.getBoundingClientRect();
+  private drawPane(name: ViewName, outer: DOMRect, texts: readonly LabelText[]): void {
     const rect = this.panes.rect(name);
     if (rect.width < 1 || rect.height < 1) return;
     const camera = this.cameras.camera(name, rect);
@@ -167,15 +167,17 @@ export class Views {
     this.sensors.scaleFor(camera, rect);
     this.gizmo.face(camera);
     this.renderer.render(this.stage.scene, camera);
-    this.labels[name].draw(labelsOf(model, (point) => project(camera, rect, point)), rect);
+    this.labels[name].draw(texts.map((text) => ({ ...text, at: project(camera, rect, text.point) })), rect);
   }
 
-  private resize(): void {
-    const { width, height } = this.area.getBoundingClientRect();
+  private resize(): DOMRect {
+    const outer = this.area.getBoundingClientRect();
+    const { width, height } = outer;
     const ratio = Math.min(window.devicePixelRatio, 2);
     const canvas = this.renderer.domElement;
-    if (canvas.width === Math.floor(width * ratio) && canvas.height === Math.floor(height * ratio)) return;
+    if (canvas.width === Math.floor(width * ratio) && canvas.height === Math.floor(height * ratio)) return outer;
     this.renderer.setPixelRatio(ratio);
     this.renderer.setSize(width, height);
+    return outer;
   }
 }
