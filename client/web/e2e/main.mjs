@@ -1,7 +1,7 @@
 // Drives the viewer in a real browser against a daemon of its own:
 //   POSED_BIN=build/dev/bin POSED_VIEWER=build/dev/share/posed/viewer [CHROMIUM=...] [POSED_SHOTS=DIR] npm run e2e [-- FILTER]
-// Each check is one line of output. One browser and one daemon serve all but the checks that need another daemon; those of
-// one file share a page. No tracker where none is needed: what streams all the time is drawn all the time.
+// Each check is one line of output. One browser and one daemon serve all but the checks that need another daemon; suites
+// of the same person share a page. No tracker where none is needed: what streams all the time is drawn all the time.
 import { join } from "node:path";
 import { launch, openPage } from "./browser.mjs";
 import { Daemon } from "./daemon.mjs";
@@ -60,17 +60,21 @@ async function check(name, run) {
   }
 }
 
+const shared = new Map();
 for (const [suite, { checks, needs = {} }] of Object.entries(suites)) {
   const wanted = checks.filter(([name]) => `${suite}: ${name}`.includes(filter));
   if (wanted.length === 0) continue;
-  const first = pages.length;
-  let page = null;
-  await check(`${suite}: opens its page`, async () => void (page = await tools.open(needs)));
-  if (page) for (const [name, run] of wanted) await check(`${suite}: ${name}`, () => run({ ...tools, page }));
-  const mine = pages.slice(first);
-  await check(`${suite}: no page complained, and none asked another host`, () => none(mine));
-  for (const page of mine) await page.context().close();
-  pages.splice(first);
+  const who = JSON.stringify(needs);
+  if (!shared.has(who)) shared.set(who, await openPage(browser, daemon.url, needs));
+  const page = shared.get(who);
+  pages.unshift(page);
+  for (const [name, run] of wanted) await check(`${suite}: ${name}`, () => run({ ...tools, page }));
+  await check(`${suite}: no page complained, and none asked another host`, () => none(pages));
+  // The shared page stays; those that the suite has opened go.
+  for (const mine of pages.splice(0)) {
+    mine.complaints = [];
+    if (mine !== page) await mine.context().close();
+  }
 }
 await browser.close();
 await daemon.end();

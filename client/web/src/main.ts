@@ -109,12 +109,13 @@ function frame(): void {
   followChoice();
   if (!model.people.quiet(start)) model.touch("people");
   const poseTime = model.poseTimeNs;
-  if (views.draw(model, theme(), gizmoPlace(model))) model.frameMeter.count(start);
+  const drew = views.draw(model, theme(), gizmoPlace(model));
+  if (drew) model.frameMeter.count(start);
   for (const part of [bar, tabs, hints, toast]) part.update(start);
   session?.streams.ackDrawn();
   const end = performance.now();
   if (poseTime !== drawnPose) bar.drew((drawnPose = poseTime), end);
-  model.work.push(end - start);
+  if (drew) model.work.push(end - start);
   if (model.work.length > 600) model.work.splice(0, 300);
   requestAnimationFrame(frame);
 }

@@ -1,6 +1,7 @@
 // Pins, joints and poses.
 import assert from "node:assert/strict";
 import { apart, begin, call, distance, figurePose, project, state, until } from "../browser.mjs";
+import { ringRadii } from "./goals.mjs";
 
 export const checks = [
   ["a click on a part of the body chooses it", choosesByClick],
@@ -91,7 +92,7 @@ async function turns({ page }) {
   await choose(page, "head");
   const index = (await state(page)).figures.body.segments.indexOf("head");
   const before = (await figurePose(page))[index];
-  for (const radius of [30, 26, 34, 22, 46]) {
+  for (const radius of await ringRadii(page, "top")) {
     const centre = await project(page, "top", (await figurePose(page))[index].slice(0, 3));
     await page.mouse.move(centre.x + radius * 0.7, centre.y - radius * 0.7);
     await page.mouse.down();

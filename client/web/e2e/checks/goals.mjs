@@ -1,6 +1,6 @@
 // Goals: made by a click, dragged in every view, weighed, explained.
 import assert from "node:assert/strict";
-import { apart, begin, call, distance, figurePose, project, state, until } from "../browser.mjs";
+import { apart, begin, call, distance, figurePose, project, rectOf, state, until } from "../browser.mjs";
 
 export const hand = "body.right_hand.position";
 
@@ -57,9 +57,9 @@ export async function drags(page, view, [dx, dy], id = hand) {
 async function gizmo({ page }) {
   await makeByClick(page);
   const before = (await state(page)).goals[hand].target;
-  const centre = await project(page, "side", before);
+  const [centre, { height }] = [await project(page, "side", before), await rectOf(page, "side")];
   // The arrow of the gizmo that points along +X, which is to the right in the side view.
-  for (const reach of [35, 40, 45, 30]) {
+  for (const reach of [0.09, 0.11, 0.07].map((share) => share * height)) {
     await page.mouse.move(centre.x + reach, centre.y);
     await page.mouse.down();
     await page.mouse.move(centre.x + reach + 50, centre.y + 35, { steps: 6 });
@@ -196,7 +196,7 @@ async function turns({ page }) {
   while ((await state(page)).selected.goal !== "look") await page.keyboard.press(".");
   // The ring about Z is a circle in the top view.
   const turned = async () => Math.abs((await state(page)).scene.goals.look.orientation.quat_xyzw[2]) > 0.1;
-  for (const radius of [32, 36, 28, 48, 40]) {
+  for (const radius of await ringRadii(page, "top")) {
     // A press that hits no ring pans.
     const centre = await project(page, "top", (await state(page)).goals.look.target);
     await page.mouse.move(centre.x + radius * 0.7, centre.y - radius * 0.7);
@@ -206,6 +206,12 @@ async function turns({ page }) {
     if (await until(turned, "a turn", 1200).catch(() => false)) return;
   }
   assert.fail("no ring was where it is drawn");
+}
+
+/** Where three's gizmo has its rings in an orthographic view: half of 0.85 quarters of the view's height, and near it. */
+export async function ringRadii(page, view) {
+  const { height } = await rectOf(page, view);
+  return [0.106, 0.095, 0.118, 0.16].map((share) => share * height);
 }
 
 async function labels({ page }) {

@@ -65,5 +65,5 @@ async function reaches({ page }) {
   const pin = page.getByTestId("segment-lower_torso").getByTestId("pin");
   for (let i = 0; i < 40 && !(await pin.evaluate((button) => button === document.activeElement)); i++) await page.keyboard.press("Tab");
   await page.keyboard.press("Space");
-  await until(async () => "lower_torso" in (await state(page)).scene.figures.body.pins, "the pin");
+  await until(async () => "lower_torso" in ((await state(page)).scene.figures.body.pins ?? {}), "the pin");
 }

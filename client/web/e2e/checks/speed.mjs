@@ -7,7 +7,7 @@ const kBytes = 400 * 1024;
 const kFigures = 5;
 const kGoalsEach = 8;
 const kWorkMs = 4;
-const kWindow = 16;
+const kWindow = 12;
 
 export const checks = [
   ["less than 400 KiB, compressed, come to the browser", bytes],
@@ -55,7 +55,7 @@ async function work({ open }) {
   // machine does between two looks at the clock is not the page's work.
   let moved = 0;
   const [medians, quarters] = [[], []];
-  for (let window = 0; window < 4; window++) {
+  for (let window = 0; window < 3; window++) {
     const before = (await page.evaluate(() => window.posed.work)).length;
     await until(async () => {
       await call(page, "goal.set", { id: `g${moved % goals.length}`, position: [0.3 + 0.1 * Math.sin(moved), 0.1, 1 + 0.01 * (moved % 9)] });

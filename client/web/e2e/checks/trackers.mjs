@@ -16,7 +16,8 @@ export const checks = [
 let page = null;
 function withTracker(run) {
   return async (tools) => {
-    if (!page || page.isClosed()) {
+    // The page is closed with the suite, and its daemon with it.
+    if (!page) {
       const daemon = await tools.daemonWith(["--tracker", "simulated"]).start();
       page = await tools.open({ url: daemon.url });
       page.context().on("close", () => void daemon.end());

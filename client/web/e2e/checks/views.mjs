@@ -153,7 +153,7 @@ async function carriesView({ page, open }) {
   const address = await until(() => page.evaluate(() => location.hash.includes("view=") && location.href), "the link");
   assert.ok(!address.includes("token"));
   const other = await open({ url: address, waits: true });
-  await until(async () => (await rectOf(other, "perspective")).width > 900, "the maximised view");
+  await until(async () => (await rectOf(other, "perspective")).width > 600, "the maximised view");
   const pose = (await figurePose(page))[3].slice(0, 3);
   const [a, b] = [await project(page, "perspective", pose), await project(other, "perspective", pose)];
   assert.ok(Math.hypot(a.x - b.x, a.y - b.y) < 3, "both look from the same place");

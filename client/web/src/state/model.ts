@@ -101,7 +101,7 @@ export class Model {
 
   readonly poseMeter = new Meter();
   readonly frameMeter = new Meter();
-  /** Script work of the last frames, milliseconds each. */
+  /** Script work of the last frames that drew, milliseconds each. */
   readonly work: number[] = [];
   lost: Partial<Record<StreamName, number>> = {};
 

@@ -28,6 +28,15 @@ export interface Hit<K> {
   distance: number;
 }
 
+/** Pieces around and along a round shape: a processor that draws has no time for more than it must. */
+export interface Detail {
+  around: number;
+  along: number;
+}
+
+export const fine: Detail = { around: 32, along: 20 };
+export const plain: Detail = { around: 14, along: 9 };
+
 export class Bodies<K> {
   readonly group = new Group();
   private batch: BatchedMesh | null = null;
@@ -36,6 +45,7 @@ export class Bodies<K> {
   constructor(
     private readonly material: Material,
     private readonly shadows: boolean,
+    private readonly detail: Detail,
   ) {}
 
   /** Bodies in this order: the index is what `place` and `paint` take. */
@@ -47,7 +57,7 @@ export class Bodies<K> {
     }
     this.keys = bodies.map(({ key }) => key);
     if (bodies.length === 0) return;
-    const geometries = bodies.map(({ shapes }) => geometryOf(shapes));
+    const geometries = bodies.map(({ shapes }) => geometryOf(shapes, this.detail));
     const vertices = geometries.reduce((sum, { attributes }) => sum + attributes["position"]!.count, 0);
     const indices = geometries.reduce((sum, { index }) => sum + index!.count, 0);
     const batch = new BatchedMesh(bodies.length, vertices, indices, this.material);
@@ -81,26 +91,26 @@ export class Bodies<K> {
   }
 }
 
-function geometryOf(shapes: readonly Shape[]): BufferGeometry {
-  const parts = shapes.map(geometryOfShape);
+function geometryOf(shapes: readonly Shape[], detail: Detail): BufferGeometry {
+  const parts = shapes.map((shape) => geometryOfShape(shape, detail));
   const merged = mergeGeometries(parts);
   for (const part of parts) part.dispose();
   return merged;
 }
 
-function geometryOfShape(shape: Shape): BufferGeometry {
+function geometryOfShape(shape: Shape, { around, along: rings }: Detail): BufferGeometry {
   if (shape.kind === "box") {
     const [x, y, z] = shape.half_size;
     return new BoxGeometry(2 * x, 2 * y, 2 * z).translate(...shape.center);
   }
   if (shape.kind === "ellipsoid") {
     // applyMatrix4 turns the normals by the inverse transpose, as an ellipsoid needs.
-    return new SphereGeometry(1, 32, 20).scale(...shape.radii).translate(...shape.center);
+    return new SphereGeometry(1, around, rings).scale(...shape.radii).translate(...shape.center);
   }
   const from = new Vector3(...shape.from);
   const along = new Vector3(...shape.to).sub(from);
   const length = along.length();
   const upright = new Quaternion().setFromUnitVectors(new Vector3(0, 1, 0), length > 0 ? along.clone().divideScalar(length) : along.set(0, 1, 0));
   const middle = new Vector3(...shape.from).add(new Vector3(...shape.to)).multiplyScalar(0.5);
-  return new CapsuleGeometry(shape.radius, length, 6, 20).applyQuaternion(upright).translate(middle.x, middle.y, middle.z);
+  return new CapsuleGeometry(shape.radius, length, Math.ceil(rings / 3), Math.ceil(around * 0.65)).applyQuaternion(upright).translate(middle.x, middle.y, middle.z);
 }

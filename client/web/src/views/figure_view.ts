@@ -2,7 +2,7 @@
 import { MeshLambertMaterial } from "three";
 import type { FigureDocument, SegmentDocument, Shape, Transform } from "../protocol/types";
 import type { Model } from "../state/model";
-import { Bodies } from "./bodies";
+import { Bodies, type Detail } from "./bodies";
 import { segmentColor, type Palette } from "./palette";
 
 export interface SegmentKey {
@@ -11,10 +11,14 @@ export interface SegmentKey {
 }
 
 export class FigureView {
-  readonly bodies = new Bodies<SegmentKey>(new MeshLambertMaterial(), true);
+  readonly bodies: Bodies<SegmentKey>;
   private first = new Map<string, number>();
   private figuresDrawn = -1;
   private paintedFor = "";
+
+  constructor(detail: Detail) {
+    this.bodies = new Bodies(new MeshLambertMaterial(), true, detail);
+  }
 
   get group() {
     return this.bodies.group;

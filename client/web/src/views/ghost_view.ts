@@ -2,14 +2,18 @@
 import { MeshLambertMaterial } from "three";
 import type { Shape, Transform } from "../protocol/types";
 import type { Model } from "../state/model";
-import { Bodies } from "./bodies";
+import { Bodies, type Detail } from "./bodies";
 import { shapesOf } from "./figure_view";
 import type { Palette } from "./palette";
 
 export class GhostView {
   private readonly material = new MeshLambertMaterial({ transparent: true, opacity: 0.28, depthWrite: false });
-  private readonly bodies = new Bodies<string>(this.material, false);
+  private readonly bodies: Bodies<string>;
   private drawn = "";
+
+  constructor(detail: Detail) {
+    this.bodies = new Bodies(this.material, false, detail);
+  }
 
   get group() {
     return this.bodies.group;

@@ -8,6 +8,9 @@ export interface Label {
   at: PagePoint;
 }
 
+/** About; and the gap to the point. */
+const kLetterPixels = 6.6;
+
 export class Labels {
   private readonly shown = new Map<string, HTMLElement>();
 
@@ -25,7 +28,10 @@ export class Labels {
       if (element.textContent !== label.text) element.textContent = label.text;
       element.dataset["kind"] = label.kind;
       const { x, y, depth } = label.at;
-      element.style.transform = `translate(${Math.round(x - rect.left)}px, ${Math.round(y - rect.top)}px)`;
+      // On the other side of its point where it would run out of the pane.
+      const across = Math.round(x - rect.left);
+      const flips = across + label.text.length * kLetterPixels > rect.width;
+      element.style.transform = `translate(${flips ? `calc(${across - 24}px - 100%)` : `${across}px`}, ${Math.round(y - rect.top)}px)`;
       element.hidden = Math.abs(depth) > 1;
     }
   }

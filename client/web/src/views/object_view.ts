@@ -2,14 +2,18 @@
 import { MeshLambertMaterial } from "three";
 import type { Transform } from "../protocol/types";
 import type { Model } from "../state/model";
-import { Bodies } from "./bodies";
+import { Bodies, type Detail } from "./bodies";
 import type { Palette } from "./palette";
 
 export class ObjectView {
-  readonly bodies = new Bodies<string>(new MeshLambertMaterial(), true);
+  readonly bodies: Bodies<string>;
   private shapesDrawn = "";
   private sceneDrawn = -1;
   private paintedFor: Palette | null = null;
+
+  constructor(detail: Detail) {
+    this.bodies = new Bodies(new MeshLambertMaterial(), true, detail);
+  }
 
   get group() {
     return this.bodies.group;

@@ -1,10 +1,13 @@
-// The WebGL renderer, as fine as the machine can bear: where a processor draws in place of a GPU, edges are not smoothed
-// and shadows are coarse, so that a drag still follows the hand. `?draw=fine` and `?draw=plain` in the address decide.
+// The WebGL renderer, as fine as the machine can bear: where a processor draws in place of a GPU, edges are not smoothed,
+// round shapes and shadows are coarse, so that a drag still follows the hand. `?draw=fine` and `?draw=plain` in the address decide.
 import { BasicShadowMap, PCFShadowMap, WebGLRenderer } from "three";
 
-export function makeRenderer(search: string): WebGLRenderer {
+export function drawsPlainly(search: string): boolean {
   const asked = new URLSearchParams(search).get("draw");
-  const plain = asked === "plain" || (asked !== "fine" && drawnBySoftware());
+  return asked === "plain" || (asked !== "fine" && drawnBySoftware());
+}
+
+export function makeRenderer(plain: boolean): WebGLRenderer {
   const renderer = new WebGLRenderer({ antialias: !plain });
   renderer.setScissorTest(true);
   renderer.shadowMap.enabled = true;

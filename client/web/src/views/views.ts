@@ -1,6 +1,7 @@
 // The one place that draws: four panes of one WebGL canvas, and only when something changed.
 import { Box3, Raycaster, Vector3, type WebGLRenderer } from "three";
 import type { Model } from "../state/model";
+import { fine, plain, type Hit } from "./bodies";
 import { Cameras } from "./cameras";
 import { FigureView, type SegmentKey } from "./figure_view";
 import { FrameView } from "./frame_view";
@@ -15,21 +16,20 @@ import { ObjectView } from "./object_view";
 import { palettes, type Palette, type Theme } from "./palette";
 import { Panes } from "./panes";
 import { project, rayAt, type PagePoint } from "./projection";
-import { makeRenderer } from "./renderer";
+import { drawsPlainly, makeRenderer } from "./renderer";
 import { riderOf } from "./rider";
 import { SensorView } from "./sensor_view";
 import { Stage } from "./stage";
-import type { Hit } from "./bodies";
 
 const kDrawnTopics = ["figures", "pose", "scene", "samples", "local", "ghosts", "cameras", "settings", "people", "connection"] as const;
 
 export class Views {
   readonly panes: Panes;
   readonly cameras: Cameras;
-  readonly figures = new FigureView();
+  readonly figures: FigureView;
   readonly gizmo: Gizmo;
-  private readonly objects = new ObjectView();
-  private readonly ghosts = new GhostView();
+  private readonly objects: ObjectView;
+  private readonly ghosts: GhostView;
   private readonly goals = new GoalView();
   private readonly frames = new FrameView();
   private readonly limits = new LimitView();
@@ -43,7 +43,12 @@ export class Views {
   private frameAt: number | null = 0;
 
   constructor(private readonly area: HTMLElement) {
-    this.renderer = makeRenderer(location.search);
+    const plainly = drawsPlainly(location.search);
+    const detail = plainly ? plain : fine;
+    this.figures = new FigureView(detail);
+    this.objects = new ObjectView(detail);
+    this.ghosts = new GhostView(detail);
+    this.renderer = makeRenderer(plainly);
     area.prepend(this.renderer.domElement);
     this.panes = new Panes(area);
     this.cameras = new Cameras(this.panes.elements);
