@@ -1,9 +1,10 @@
 // The last piece of the whole line: a page in a real browser has the pose that a tracker's bytes led to.
 //   POSED_URL=http://127.0.0.1:PORT/ POSED_WANTED='[x,y,z]' node e2e/liberty.mjs
-import { openViewer, state, until } from "./browser.mjs";
+import { launch, openPage, state, until } from "./browser.mjs";
 
 const wanted = JSON.parse(process.env.POSED_WANTED);
-const { browser, page } = await openViewer(process.env.POSED_URL);
+const browser = await launch();
+const page = await openPage(browser, process.env.POSED_URL);
 
 const near = (a, b, tolerance) => a.every((value, i) => Math.abs(value - b[i]) <= tolerance);
 

@@ -29,9 +29,21 @@ export function exposeDebugHandle(model: Model, views: Views): void {
         trackers: structuredClone(model.trackers),
         sensors: Object.fromEntries(structuredClone(model.samples)),
         lost: { ...model.lost },
+        role: model.hello?.role,
+        session: model.hello?.session,
+        waiting: model.waitingEdits,
+        selected: { goal: model.selectedGoal, segment: structuredClone(model.selectedSegment) },
+        rides: structuredClone(model.rides),
       };
     },
+    /** Milliseconds of script that the last frames took. */
+    get work() {
+      return [...model.work];
+    },
     views: {
+      get cameras() {
+        return views.cameras.state;
+      },
       names: viewNames,
       rect: (name: ViewName) => views.panes.rect(name),
       /** A world point in page pixels, as that view shows it. */

@@ -1,7 +1,7 @@
 import { beforeEach, describe, expect, it } from "vitest";
 import type { EditReply } from "../src/protocol/types";
 import { GoalEdits } from "../src/tools/goal_edits";
-import { settle } from "./fakes";
+import { FakeClock, settle } from "./fakes";
 
 interface Asked {
   params: object;
@@ -13,6 +13,7 @@ let asked: Asked[];
 let settled: Array<[string, number | null]>;
 let failures: unknown[];
 let edits: GoalEdits;
+let clock: FakeClock;
 
 beforeEach(() => {
   asked = [];
@@ -23,16 +24,17 @@ beforeEach(() => {
       expect(method).toBe("goal.set");
       asked.push({ params, answer: (revision) => resolve({ revision }), refuse: () => reject(new Error("no")) });
     });
+  clock = new FakeClock();
   edits = new GoalEdits(request, {
     settled: (goal, revision) => settled.push([goal, revision]),
     failed: (error) => failures.push(error),
-  });
+  }, clock);
 });
 
 const params = () => asked.map((each) => each.params);
 
 describe("GoalEdits", () => {
-  it("keeps one edit in flight and sends the newest after it", async () => {
+  it("sends at once, and the newest of what came meanwhile after it", async () => {
     for (let i = 0; i < 50; i++) edits.set("g1", { position: [i, 0, 0] });
     expect(params()).toEqual([{ id: "g1", position: [0, 0, 0] }]);
     asked[0]?.answer(5);
@@ -44,6 +46,22 @@ describe("GoalEdits", () => {
     expect(asked).toHaveLength(2);
     expect(settled).toEqual([["g1", 6]]);
     expect(edits.busy("g1")).toBe(false);
+  });
+
+  it("does not wait for answers over a long line: spaced, and eight at most are under way", async () => {
+    for (let ms = 0; ms < 600; ms += 10) {
+      edits.set("g1", { position: [ms, 0, 0] });
+      clock.pass(10);
+    }
+    expect(params()).toHaveLength(8);
+    expect(params().slice(0, 3)).toEqual([0, 30, 60].map((ms) => ({ id: "g1", position: [expect.closeTo(ms, -1.5), 0, 0] })));
+    asked.forEach(({ answer }, i) => answer(i + 1));
+    await settle();
+    expect(params().at(-1)).toEqual({ id: "g1", position: [590, 0, 0] });
+    expect(settled).toEqual([]);
+    asked.at(-1)?.answer(99);
+    await settle();
+    expect(settled).toEqual([["g1", 99]]);
   });
 
   it("adds up different fields that wait", async () => {

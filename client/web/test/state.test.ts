@@ -30,7 +30,7 @@ describe("the scene", () => {
     const scene = applySceneFrame(applySceneFrame(emptyScene, structuredClone(snapshot)), {
       from_revision: 7, revision: 8, patch: [{ op: "replace", path: "", value: { goals: {} } }],
     });
-    expect(scene.document).toEqual({ figures: {}, goals: {}, bindings: {} });
+    expect(scene.document).toEqual({ figures: {}, goals: {}, objects: {}, bindings: {}, cameras: {} });
   });
 
   it("says so when a patch does not join up or does not fit", () => {
@@ -88,6 +88,7 @@ describe("the model", () => {
 
   it("ends the local echo with the pose that has the last edit, not before", () => {
     const model = new Model();
+    model.takeScene(structuredClone(snapshot));
     model.setLocalTarget("g1", [0, 0, 3]);
     model.endLocalTarget("g1", 12);
     pose(model, 11, [0, 0, 2]);
@@ -101,6 +102,7 @@ describe("the model", () => {
 
   it("drops the echo at once when the daemon refuses", () => {
     const model = new Model();
+    model.takeScene(structuredClone(snapshot));
     pose(model, 1, [0, 0, 2]);
     model.setLocalTarget("g1", [0, 0, 3]);
     model.endLocalTarget("g1", null);
@@ -131,12 +133,12 @@ describe("the model", () => {
     expect([...model.samples.keys()]).toEqual(["b:1"]);
   });
 
-  it("starts a session without what only the last one knew", () => {
+  it("starts a session without what only the last one knew, and keeps what is under the hand", () => {
     const model = new Model();
     pose(model, 40, [0, 0, 2]);
     model.setLocalTarget("g1", [0, 0, 3]);
     model.beginSession({ protocol: 1, daemon: { name: "posed", version: "0" }, session: "s2", boot: "c" });
-    expect([model.poseRevision, model.localTargets.size, model.poses.size]).toEqual([-1, 0, 1]);
+    expect([model.poseRevision, model.localTargets.size, model.poses.size]).toEqual([-1, 1, 1]);
   });
 });
 

@@ -1,4 +1,4 @@
-import { Box3, Vector3 } from "three";
+import { Box3, Vector3, type OrthographicCamera } from "three";
 import { describe, expect, it } from "vitest";
 import { Cameras } from "../src/views/cameras";
 import { viewNames, type ViewName } from "../src/views/names";
@@ -21,6 +21,13 @@ function step(cameras: Cameras, name: ViewName, x: number, y: number, z: number)
   const a = seen(cameras, name, focus.x, focus.y, focus.z);
   const b = seen(cameras, name, focus.x + x, focus.y + y, focus.z + z);
   // Adding zero turns a negative zero into a plain one.
+  return [Math.sign(Math.round(b.x - a.x)) + 0, Math.sign(Math.round(b.y - a.y)) + 0];
+}
+
+/** The same in the perspective view, from a point of one's own. */
+function step4(cameras: Cameras, from: number[], by: number[]): [number, number] {
+  const at = (v: number[]) => seen(cameras, "perspective", v[0]!, v[1]!, v[2]!);
+  const [a, b] = [at(from), at(from.map((value, i) => value + by[i]!))];
   return [Math.sign(Math.round(b.x - a.x)) + 0, Math.sign(Math.round(b.y - a.y)) + 0];
 }
 
@@ -73,20 +80,37 @@ describe("the views", () => {
     const scale = (name: ViewName) => metresPerPixel(cameras.camera(name, rects[name]), rects[name], cameras.focus);
     expect(scale("front")).toBeCloseTo(scale("top"), 9);
     const before = seen(cameras, "top", 0, 0, 0);
-    cameras.pan("front", rects.front, 30, 0);
-    expect(seen(cameras, "top", 0, 0, 0).x - before.x).toBeCloseTo(30, 6);
+    // As a hand on the front view does it: by its controls.
+    cameras.controls.front.target.y -= 0.1;
+    cameras.controls.front.object.position.y -= 0.1;
+    cameras.controls.front.dispatchEvent({ type: "change" });
+    expect(seen(cameras, "top", 0, 0, 0).x - before.x).toBeCloseTo(0.1 / scale("top"), 6);
+    const was = scale("front");
+    (cameras.controls.side.object as OrthographicCamera).zoom = 2;
+    cameras.controls.side.dispatchEvent({ type: "change" });
+    expect(scale("front")).toBeCloseTo(was / 2, 9);
+    expect(scale("top")).toBeCloseTo(was / 2, 9);
   });
 
-  it.each(viewNames)("%s: what lies under the pointer stays there when zooming", (name) => {
+  it("come back from what a link keeps of them", () => {
     const cameras = new Cameras();
-    const rect = rects[name];
-    const [x, y] = [rect.left + 70, rect.top + 90];
-    const centre = name === "perspective" ? cameras.target.clone() : cameras.focus.clone();
-    const under = onViewPlane(cameras.camera(name, rect), rect, x, y, centre) as Vector3;
-    cameras.zoom(name, rect, 0.7, x, y);
-    const after = project(cameras.camera(name, rect), rect, under);
-    expect(after.x).toBeCloseTo(x, 6);
-    expect(after.y).toBeCloseTo(y, 6);
+    cameras.fit(new Box3(new Vector3(-0.2, -0.9, 0), new Vector3(0.3, 0.9, 1.75)), rects);
+    const other = new Cameras();
+    other.restore(JSON.parse(JSON.stringify(cameras.state)));
+    for (const name of viewNames) {
+      const [a, b] = [seen(cameras, name, 0.4, -0.3, 1.2), seen(other, name, 0.4, -0.3, 1.2)];
+      expect(Math.hypot(a.x - b.x, a.y - b.y), name).toBeLessThan(0.5);
+    }
+  });
+
+  it("are led by who rides along: X forward, Z up", () => {
+    const cameras = new Cameras();
+    cameras.ride({ position: [1, 2, 3], quat_xyzw: [0, 0, 0, 1], fov_y: 1 });
+    const middle = seen(cameras, "perspective", 5, 2, 3);
+    const rect = rects.perspective;
+    expect([middle.x, middle.y]).toEqual([rect.left + rect.width / 2, rect.top + rect.height / 2].map((value) => expect.closeTo(value, 6)));
+    expect(step4(cameras, [5, 2, 3], [0, 0, 0.1])).toEqual([0, -1]);
+    expect(step4(cameras, [5, 2, 3], [0, 0.1, 0])).toEqual([-1, 0]);
   });
 
   it("frame a body with room to spare in all four", () => {

@@ -1,77 +1,108 @@
-// The bar at the top: the connection, the scene menu, the pose buttons and the meter.
+// The bar at the top: the connection, the tools, what is shown, and the meter that is honest about time.
+import { html, nothing, type TemplateResult } from "lit-html";
 import type { ConnectionState } from "../protocol/connection";
 import type { Model } from "../state/model";
-import { toggleMaking } from "../tools/keys";
-import type { Requests } from "../tools/requests";
-import type { Views } from "../views/views";
-import { button, element, setOptions, setText } from "./dom";
+import { toggleMaking, type Hands } from "../tools/keys";
+import { Panel, clicked } from "./panel";
 
-export class Bar {
-  readonly root = element("header", { className: "bar" });
-  private readonly connection = element("button", { className: "connection", testid: "connection" });
-  private readonly scenes = element("select", { testid: "scene-menu", title: "Begin a new scene" });
-  private readonly goal: HTMLButtonElement;
-  private readonly fps = element("span", { className: "number", testid: "meter-fps" });
-  private readonly lost = element("span", { className: "number", testid: "meter-lost" });
-  private readonly trip = element("span", { className: "number", testid: "meter-trip" });
+const kMeterMs = 500;
+const kWorkFrames = 60;
 
-  constructor(model: Model, views: Views, requests: Requests, reconnect: () => void) {
-    this.connection.type = "button";
-    this.connection.addEventListener("click", () => model.connection.phase === "lost" && reconnect());
-    this.scenes.setAttribute("aria-label", "new scene");
-    this.scenes.addEventListener("change", () => {
-      void this.beginScene(views, requests);
-      this.scenes.value = "";
-      this.scenes.blur();
-    });
-    this.goal = button("+ Goal", "tool-goal", "Then click a part of the figure (G, or shift-click)", () => toggleMaking(model, !model.makingGoal));
-    this.root.append(
-      element("span", { className: "brand", text: "posed" }),
-      this.connection,
-      element("span", { className: "gap" }),
-      this.scenes,
-      button("Start pose", "pose-start", "Standing, arms down", () => requests.resetPose("start")),
-      button("Rest pose", "pose-rest", "The figure's rest: a T-pose", () => requests.resetPose("rest")),
-      this.goal,
-      button("Frame", "frame-all", "Frame the figures in all views (F)", () => views.fit(model)),
-      element("span", { className: "grow" }),
-      element("span", { className: "meter", testid: "meter" }, this.fps, this.lost, this.trip),
-    );
+export interface BarActions {
+  reconnect(): void;
+  link(): void;
+}
+
+export class Bar extends Panel {
+  private meterMs = -Infinity;
+  private nowMs = 0;
+  private age: number | null = null;
+
+  constructor(
+    model: Model,
+    private readonly hands: Hands,
+    private readonly actions: BarActions,
+  ) {
+    const root = document.createElement("header");
+    root.className = "bar";
+    super(root, model, ["connection", "local", "settings", "menu"]);
   }
 
-  private async beginScene(views: Views, requests: Requests): Promise<void> {
-    const [kind, name = ""] = this.scenes.value.split(/:(.*)/s);
-    const revision = await (kind === "open" ? requests.openScene(name) : requests.newScene(name));
-    if (revision !== undefined) views.fitFrom(revision);
+  override update(nowMs: number): void {
+    this.nowMs = nowMs;
+    const lost = this.model.connection.phase !== "connected";
+    if (nowMs - this.meterMs > kMeterMs) {
+      this.meterMs = nowMs;
+      this.redraw();
+    }
+    if (document.body.dataset["phase"] !== this.model.connection.phase) document.body.dataset["phase"] = this.model.connection.phase;
+    document.body.classList.toggle("lost", lost);
+    super.update(nowMs);
   }
 
-  update(model: Model, nowMs: number): void {
-    const phase = model.connection.phase;
-    this.connection.dataset["phase"] = document.body.dataset["phase"] = phase;
-    setText(this.connection, connectionText(model.connection, nowMs));
-    this.connection.title = phase === "lost" ? "Click to try now" : daemonText(model);
-    setOptions(
-      this.scenes,
-      [
-        ["", "New scene…"],
-        ...model.templates.map((name) => [`new:${name}`, name] as const),
-        ...model.saved.map((name) => [`open:${name}`, `saved: ${name}`] as const),
-      ],
-      "",
-    );
-    this.goal.classList.toggle("on", model.makingGoal);
-    setText(this.fps, `${Math.round(model.poseMeter.perSecond(nowMs))} poses/s`);
-    setText(this.lost, `${model.lost.pose ?? 0} dropped`);
-    const lost = Object.entries(model.lost).map(([stream, count]) => `${stream} ${count}`);
-    this.lost.title = `Frames the daemon left out because this page was slower: ${lost.join(", ") || "none"}`;
-    setText(this.trip, model.roundTripMs === null ? "" : `${model.roundTripMs.toFixed(model.roundTripMs < 10 ? 1 : 0)} ms`);
+  /** Of the pose that has just been drawn, on this page's clock. */
+  drew(poseTimeNs: number, nowMs: number): void {
+    this.age = this.model.clock.ageMs(poseTimeNs, nowMs);
+  }
+
+  protected template(): TemplateResult {
+    const { model, hands, nowMs } = this;
+    const { settings } = model;
+    const { phase } = model.connection;
+    const waiting = model.waitingEdits;
+    const tool = (testid: string, text: string, title: string, on: boolean, run: () => void, edits = false) =>
+      html`<button type="button" data-testid=${testid} title=${title} aria-pressed=${on} ?disabled=${edits && !model.mayEdit} @click=${clicked(run)}>${text}</button>`;
+    return html`
+      <h1 class="brand">posed</h1>
+      <button type="button" class="connection" data-testid="connection" data-phase=${phase} title=${phase === "lost" ? "Click to try now" : daemonText(model)}
+        @click=${() => phase === "lost" && this.actions.reconnect()}>${connectionText(model.connection, nowMs)}</button>
+      <span role="status" class="waiting" data-testid="waiting" ?hidden=${waiting === 0}>${waiting} ${waiting === 1 ? "edit waits" : "edits wait"}</span>
+      ${model.mayEdit ? nothing : html`<span class="badge" data-testid="role">view only</span>`}
+      <button type="button" data-testid="scenes" title="Scenes (N)" @click=${clicked(hands.page.gallery)}>Scenes</button>
+      <span class="tools" role="group" aria-label="Tools">
+        ${tool("tool-goal", "+ Goal", "Then click a part of the figure (G, or shift-click)", model.makingGoal, () => toggleMaking(model, !model.makingGoal), true)}
+        ${tool("tool-move", "Move", "The gizmo moves (W)", settings.gizmo === "move", () => model.change({ gizmo: "move" }), true)}
+        ${tool("tool-turn", "Turn", "The gizmo turns (E)", settings.gizmo === "turn", () => model.change({ gizmo: "turn" }), true)}
+        ${tool("tool-snap", "Snap", "Snap to 5 cm (S, or hold Ctrl)", settings.snap > 0, () => model.change({ snap: settings.snap > 0 ? 0 : 0.05 }), true)}
+      </span>
+      <span class="tools" role="group" aria-label="Undo">
+        ${tool("bar-undo", "↶", "Undo (Ctrl+Z)", false, () => void hands.requests.undo(), true)}
+        ${tool("bar-redo", "↷", "Do again (Ctrl+Shift+Z)", false, () => void hands.requests.redo(), true)}
+      </span>
+      <span class="tools" role="group" aria-label="Show">
+        ${tool("frame-all", "Frame", "Frame the figures in all views (F)", false, () => hands.views.fit(model))}
+        ${tool("show-frames", "Axes", "Segment frames (X)", settings.frames, () => model.change({ frames: !settings.frames }))}
+        ${tool("show-limits", "Limits", "The range of the chosen joint", settings.limits, () => model.change({ limits: !settings.limits }))}
+      </span>
+      <span class="grow"></span>
+      ${this.meter()}
+      <span class="tools" role="group" aria-label="Page">
+        ${tool("units", settings.lengths, "Lengths in millimetres or metres", false, () => model.change({ lengths: settings.lengths === "mm" ? "m" : "mm" }))}
+        ${tool("theme", { auto: "◐", dark: "●", light: "○" }[settings.theme], `Colours: ${settings.theme}`, false, () => model.change({ theme: ({ auto: "dark", dark: "light", light: "auto" } as const)[settings.theme] }))}
+        ${tool("link", "Link", "Copy a link that carries this view", false, this.actions.link)}
+        ${tool("picture", "Picture", "Download a picture of the views (C)", false, hands.page.picture)}
+        ${tool("help", "?", "Help and keys (?)", false, hands.page.help)}
+      </span>`;
+  }
+
+  private meter(): TemplateResult {
+    const { model, nowMs } = this;
+    const work = model.work.slice(-kWorkFrames);
+    const mean = work.reduce((a, b) => a + b, 0) / (work.length || 1);
+    const lost = Object.entries(model.lost).map(([stream, count]) => `${stream} ${count}`).join(", ") || "none";
+    const trip = model.roundTripMs === null ? "" : `, round trip ${model.roundTripMs.toFixed(1)} ms`;
+    return html`<span class="meter" data-testid="meter">
+      <span data-testid="meter-fps" title="Frames drawn in the last second, ${mean.toFixed(1)} ms of script each">${Math.round(model.frameMeter.perSecond(nowMs))} fps</span>
+      <span data-testid="meter-age" title="From sample to screen, of the pose drawn last: the daemon's clock against this page's${trip}">${this.age === null ? "–" : `${this.age.toFixed(this.age < 10 ? 1 : 0)} ms`}</span>
+      <span data-testid="meter-lost" title="Frames that the daemon left out because this page was slower: ${lost}">${model.lost.pose ?? 0} dropped</span>
+    </span>`;
   }
 }
 
 export function connectionText(state: ConnectionState, nowMs: number): string {
   if (state.phase === "connecting") return "connecting…";
   if (state.phase === "connected") return "connected";
-  return `lost, reconnecting in ${Math.max(0, Math.ceil((state.retryAtMs - nowMs) / 1000))} s`;
+  return `lost, again in ${Math.max(0, Math.ceil((state.retryAtMs - nowMs) / 1000))} s`;
 }
 
 function daemonText(model: Model): string {

@@ -1,102 +1,128 @@
-// The list of goals: what each pulls, how it fares, its weight, and whether it is on.
-import type { GoalDocument, GoalPose } from "../protocol/types";
+// The list of goals: what each pulls, how it fares, its share of the force and what stands in its way; the chosen one opens.
+import { html, nothing, type TemplateResult } from "lit-html";
+import { repeat } from "lit-html/directives/repeat.js";
+import { live } from "lit-html/directives/live.js";
+import type { GoalDocument, GoalPose, Vec3 } from "../protocol/types";
 import type { Model } from "../state/model";
+import { atText, causesText, frameText, goalName, isAngle, lengthText, degreesText, sliderFromWeight, weightFromSlider, weightText } from "../state/words";
+import { addGoalMenu } from "./add_goal_menu";
 import type { Requests } from "../tools/requests";
-import { button, element, Rows, setText } from "./dom";
-import { atText, causesText, errorText, goalName, sliderFromWeight, weightFromSlider, weightText } from "./words";
+import { Panel, clicked, section } from "./panel";
+import { shownValue, slider } from "./slider";
 
-export class GoalPanel {
-  readonly root = element("section", { className: "panel", testid: "goal-panel" });
-  private readonly list = element("div", { className: "rows" });
-  private readonly count = element("span", { className: "count" });
-  private readonly empty = element("p", { className: "empty", text: "No goals yet. Shift-click a part of the figure, or press G and click, to give it one." });
-  private readonly rows: Rows<GoalRow>;
-  private seen = "";
-
-  constructor(model: Model, requests: Requests) {
-    this.root.append(element("h2", {}, "Goals ", this.count), this.empty, this.list);
-    this.rows = new Rows(this.list, (id) => new GoalRow(id, model, requests));
-  }
-
-  update(model: Model): void {
-    const now = [model.version.scene, model.version.pose, model.version.local].join();
-    if (now === this.seen) return;
-    this.seen = now;
-    const { goals, bindings } = model.scene.document;
-    const ids = Object.keys(goals).sort();
-    this.rows.sync(ids);
-    this.empty.hidden = ids.length > 0;
-    setText(this.count, ids.length > 0 ? String(ids.length) : "");
-    const sensorOf = new Map(Object.values(bindings).map(({ to, sensor }) => [to.goal, sensor]));
-    for (const [id, row] of this.rows.rows) {
-      row.update(goals[id] as GoalDocument, model.goalPose(id), id === model.selectedGoal, sensorOf.get(id));
-    }
-  }
-}
-
-class GoalRow {
-  readonly root: HTMLElement;
-  private readonly name = element("span", { className: "goal-name" });
-  private readonly state = element("span", { className: "goal-state", testid: "goal-state" });
-  private readonly error = element("span", { className: "goal-error", testid: "goal-error" });
-  private readonly note = element("div", { className: "goal-note" });
-  private readonly enabled = element("input", { testid: "goal-enabled", title: "On or off" });
-  private readonly weight = element("input", { testid: "goal-weight", title: "Weight: how hard this goal pulls" });
-  private readonly weightValue = element("output", { testid: "goal-weight-value" });
-  private sliding = false;
-
+export class GoalPanel extends Panel {
   constructor(
-    private readonly id: string,
     model: Model,
     private readonly requests: Requests,
   ) {
-    this.enabled.type = "checkbox";
-    this.enabled.setAttribute("aria-label", `${id} on`);
-    this.enabled.addEventListener("change", () => requests.setGoal(id, { enabled: this.enabled.checked }));
-    this.weight.type = "range";
-    [this.weight.min, this.weight.max, this.weight.step] = ["-1", "3", "0.01"];
-    this.weight.setAttribute("aria-label", `${id} weight`);
-    this.weight.addEventListener("input", () => {
-      this.sliding = true;
-      const weight = weightFromSlider(this.weight.valueAsNumber);
-      setText(this.weightValue, weightText(weight));
-      requests.setGoal(id, { weight });
-    });
-    this.weight.addEventListener("change", () => (this.sliding = false));
-    const remove = button("×", "goal-remove", `Remove ${id}`, () => requests.removeGoal(id));
-    remove.className = "quiet";
-    this.root = element(
-      "div",
-      { className: "row goal", testid: `goal-${id}`, title: id },
-      element("div", { className: "line" }, this.enabled, this.name, this.state, this.error),
-      element("div", { className: "line" }, element("span", { className: "dim", text: "weight" }), this.weight, this.weightValue, remove),
-      this.note,
-    );
-    this.root.addEventListener("pointerdown", () => model.select(id));
+    super(section("panel", "goal-panel", "Goals"), model, ["scene", "pose", "local", "people", "settings", "connection", "figures"]);
   }
 
-  update(goal: GoalDocument, pose: GoalPose | undefined, selected: boolean, sensor: string | undefined): void {
-    const enabled = goal.enabled !== false;
-    // Two weights are more than one slider can say: it shows the first.
-    const two = typeof goal.weight === "object";
-    const weight = typeof goal.weight === "object" ? goal.weight.position : (goal.weight ?? 10);
+  protected template(): TemplateResult {
+    const { goals, bindings } = this.model.scene.document;
+    const ids = Object.keys(goals).sort();
+    const leads = new Map(Object.values(bindings).map(({ to, sensor }) => [to.goal, sensor]));
+    const pull = this.pulls();
+    return html`
+      <h2>Goals <span class="count">${ids.length || nothing}</span>${addGoalMenu(this.model, this.requests)}</h2>
+      ${ids.length === 0 ? html`<p class="empty">No goals yet. Press <kbd>G</kbd> and click a part of the figure, or shift-click it, to give it one.</p>` : nothing}
+      <ul class="rows" aria-label="Goals">${repeat(ids, (id) => id, (id) => this.row(id, goals[id]!, leads.get(id), pull))}</ul>`;
+  }
+
+  /** Force by goal, and the sum of each figure. */
+  private pulls(): { of: Map<string, number>; sum: number } {
+    const of = new Map([...this.model.poses.values()].flatMap(({ goals }) => goals.map(({ id, force }) => [id, Math.hypot(...(force ?? [0]))] as const)));
+    return { of, sum: [...of.values()].reduce((a, b) => a + b, 0) };
+  }
+
+  private row(id: string, goal: GoalDocument, sensor: string | undefined, pull: { of: Map<string, number>; sum: number }): TemplateResult {
+    const { model, requests } = this;
+    const [pose, enabled, selected] = [model.goalPose(id), goal.enabled !== false, id === model.selectedGoal];
     const state = enabled ? (pose?.state ?? "off") : "off";
-    this.root.classList.toggle("selected", selected);
-    this.root.dataset["state"] = state;
-    const [name, at] = [goal.label || goalName(this.id), atText(goal.at)];
-    setText(this.name, name);
-    setText(this.state, state);
-    setText(this.error, enabled && pose ? errorText(pose.error) : "");
-    const kind = goal.kind === undefined || goal.kind === "position" ? "" : goal.kind;
-    const notes = [kind, at === name ? "" : `at ${at}`, sensor ? `follows ${sensor}` : "", enabled ? causesText(pose?.causes) : ""].filter(Boolean);
-    setText(this.note, notes.join(" · "));
-    this.note.hidden = notes.length === 0;
-    // What the user has just set stays until the daemon has answered.
-    if (this.sliding || this.requests.busy(this.id)) return;
-    if (this.enabled.checked !== enabled) this.enabled.checked = enabled;
-    this.weight.disabled = two;
-    const slider = String(sliderFromWeight(weight));
-    if (this.weight.value !== slider) this.weight.value = slider;
-    setText(this.weightValue, weightText(weight));
+    const name = goal.label || goalName(id);
+    const holder = model.people.holder(id);
+    const share = pull.sum > 1e-3 ? (pull.of.get(id) ?? 0) / pull.sum : 0;
+    const kind = goal.kind ?? "position";
+    const notes = [
+      kind === "position" ? "" : kind, atText(goal.at) === name ? "" : atText(goal.at), frameText(goal.relative_to),
+      goal.priority ? `priority ${goal.priority}` : "", sensor ? `follows ${sensor}` : "",
+    ].filter(Boolean).join(" · ");
+    const causes = enabled ? causesText(pose?.causes, model.settings.lengths) : "";
+    return html`<li class="row goal ${selected ? "selected" : ""}" data-testid="goal-${id}" data-state=${state} title=${id}
+        @pointerdown=${() => model.select(id)} @pointerenter=${() => this.point(id)} @pointerleave=${() => this.point(null)}>
+      <div class="line">
+        <input type="checkbox" data-testid="goal-enabled" aria-label="${name} on" .checked=${live(enabled)} ?disabled=${!model.mayEdit}
+          @change=${(event: Event) => requests.setGoal(id, { enabled: (event.target as HTMLInputElement).checked })} />
+        <button type="button" class="goal-name" aria-pressed=${selected} @click=${clicked(() => model.select(id))}>${name}</button>
+        ${holder ? html`<span class="held" data-testid="goal-held">held by ${holder}</span>` : nothing}
+        <span class="goal-state" data-testid="goal-state">${state}</span>
+        <span class="goal-error" data-testid="goal-error">${enabled && pose ? this.errorText(goal, pose) : ""}</span>
+      </div>
+      ${this.weights(id, goal)}
+      ${share > 0.005 ? html`<div class="share" title="Its share of all force on the figures"><i style="width:${(share * 100).toFixed(1)}%"></i><span data-testid="goal-share">${Math.round(share * 100)} % of the force</span></div>` : nothing}
+      ${causes ? html`<div class="causes" data-testid="goal-causes">${causes}</div>` : nothing}
+      ${notes ? html`<div class="note">${notes}</div>` : nothing}
+      ${selected ? this.details(id, goal) : nothing}
+    </li>`;
+  }
+
+  private point(id: string | null): void {
+    this.model.hoveredGoal = id;
+    this.model.touch("local");
+  }
+
+  private errorText(goal: GoalDocument, { error }: GoalPose): string {
+    return isAngle(goal.kind) ? `${lengthText(error, this.model.settings.lengths)} arc` : lengthText(error, this.model.settings.lengths);
+  }
+
+  private weights(id: string, goal: GoalDocument): TemplateResult {
+    const { weight = 10 } = goal;
+    if (typeof weight === "number") return this.weight(id, "weight", weight, (value) => value);
+    return html`${this.weight(id, "place", weight.position, (position) => ({ ...weight, position }))}${this.weight(id, "turn", weight.orientation, (orientation) => ({ ...weight, orientation }))}`;
+  }
+
+  private weight(id: string, label: string, weight: number, whole: (value: number) => NonNullable<GoalDocument["weight"]>): TemplateResult {
+    const key = `${id} ${label}`;
+    const value = sliderFromWeight(weight);
+    const shown = shownValue(key, value);
+    return slider({
+      key, label, testid: label === "turn" ? "goal-turn-weight" : "goal-weight", min: -1, max: 3, step: 0.01, value,
+      text: shown === value ? weightText(weight) : weightText(weightFromSlider(shown)), disabled: !this.model.mayEdit,
+      change: (moved, gesture) => this.requests.setGoal(id, { weight: whole(weightFromSlider(moved)) }, gesture),
+    });
+  }
+
+  private details(id: string, goal: GoalDocument): TemplateResult {
+    const { model, requests } = this;
+    const target = model.goalTarget(id);
+    const number = (field: "priority" | "tolerance", value: number, step: number, unit = "") => html`<label class="field">${field}${unit}
+      <input type="number" step=${step} data-testid="goal-${field}" .value=${String(value)} ?disabled=${!model.mayEdit}
+        @change=${(event: Event) => this.setNumber(id, field, (event.target as HTMLInputElement).valueAsNumber)} /></label>`;
+    return html`<div class="details">
+      ${target && model.movable(id) ? html`<div class="line fields">${(["x", "y", "z"] as const).map((axis, i) => this.coordinate(id, axis, i, target))}</div>` : nothing}
+      <div class="line fields">
+        ${number("priority", goal.priority ?? 0, 1)}
+        ${typeof goal.tolerance === "object" ? nothing : number("tolerance", (goal.tolerance ?? 0) * 1000, 1, " mm")}
+        <span class="grow"></span>
+        <button type="button" class="danger" data-testid="goal-remove" ?disabled=${!model.mayEdit} @click=${clicked(() => requests.removeGoal(id))}>Remove</button>
+      </div>
+      ${goal.distance ? html`<div class="note">${goal.distance.compare ?? "equal"} ${lengthText(goal.distance.length, model.settings.lengths)} from ${atText(goal.distance.to)}</div>` : nothing}
+      ${model.goalTurn(id) ? html`<div class="note">turned ${degreesText(2 * Math.acos(Math.min(1, Math.abs(model.goalTurn(id)![3]))))} from the world's axes; <kbd>E</kbd> turns, <kbd>W</kbd> moves</div>` : nothing}
+    </div>`;
+  }
+
+  private coordinate(id: string, axis: "x" | "y" | "z", index: number, target: Vec3): TemplateResult {
+    const scale = this.model.settings.lengths === "mm" ? 1000 : 1;
+    const set = (event: Event) => {
+      const value = (event.target as HTMLInputElement).valueAsNumber / scale;
+      if (Number.isFinite(value)) this.requests.moveGoal(id, target.map((old, i) => (i === index ? value : old)) as Vec3, undefined);
+    };
+    return html`<label class="field axis-${axis}">${axis.toUpperCase()}
+      <input type="number" step=${scale / 100} data-testid="goal-${axis}" .value=${(target[index]! * scale).toFixed(scale === 1 ? 3 : 0)} ?disabled=${!this.model.mayEdit} @change=${set} /></label>`;
+  }
+
+  private setNumber(id: string, field: "priority" | "tolerance", value: number): void {
+    if (!Number.isFinite(value)) return;
+    this.requests.setGoal(id, field === "priority" ? { priority: Math.round(value) } : { tolerance: Math.max(0, value) / 1000 });
   }
 }

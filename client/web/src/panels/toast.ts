@@ -1,32 +1,36 @@
-// What the daemon refused, with its hint, for some seconds.
+// What the daemon refused, with its hint, or what has just been done, for some seconds.
+import { html, type TemplateResult } from "lit-html";
 import type { Model } from "../state/model";
-import { element, setText } from "./dom";
+import { Panel } from "./panel";
 
-const kShownMs = 7000;
+const kShownMs = { good: 3500, bad: 7000 };
 
-export class Toast {
-  readonly root = element("div", { className: "toast", testid: "toast" });
-  private readonly message = element("div", { className: "toast-message" });
-  private readonly hint = element("div", { className: "toast-hint" });
-  private seen = 0;
+export class Toast extends Panel {
+  private shown = 0;
   private hideAt = 0;
 
-  constructor() {
-    this.root.setAttribute("role", "alert");
-    this.root.hidden = true;
-    this.root.append(this.message, this.hint);
-    this.root.addEventListener("click", () => (this.root.hidden = true));
+  constructor(model: Model) {
+    const root = document.createElement("div");
+    root.className = "toast";
+    root.dataset["testid"] = "toast";
+    root.hidden = true;
+    root.addEventListener("click", () => (root.hidden = true));
+    root.setAttribute("role", "status");
+    super(root, model, ["toast"]);
   }
 
-  update(model: Model, nowMs: number): void {
-    if (this.seen !== model.version.toast && model.toast) {
-      this.seen = model.version.toast;
-      this.hideAt = nowMs + kShownMs;
-      setText(this.message, model.toast.message);
-      setText(this.hint, model.toast.hint);
+  override update(nowMs: number): void {
+    const { toast, version } = this.model;
+    if (version.toast !== this.shown && toast) {
+      this.shown = version.toast;
+      this.hideAt = nowMs + (toast.good ? kShownMs.good : kShownMs.bad);
       this.root.hidden = false;
-    } else if (!this.root.hidden && nowMs > this.hideAt) {
-      this.root.hidden = true;
-    }
+      this.root.classList.toggle("good", toast.good);
+    } else if (!this.root.hidden && nowMs > this.hideAt) this.root.hidden = true;
+    super.update(nowMs);
+  }
+
+  protected template(): TemplateResult {
+    return html`<div class="toast-message">${this.model.toast?.message ?? ""}</div><div class="toast-hint">${this.model.toast?.hint ?? ""}</div>`;
   }
 }

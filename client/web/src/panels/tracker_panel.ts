@@ -1,149 +1,76 @@
-// Tracker stations with their sensors, and which goal each sensor leads.
-import type { BindingDocument, SensorSample, TrackerInfo } from "../protocol/types";
+// Tracker stations with their sensors, and what each sensor leads.
+import { html, nothing, type TemplateResult } from "lit-html";
+import { repeat } from "lit-html/directives/repeat.js";
+import type { SensorSample, TrackerInfo } from "../protocol/types";
 import type { Model } from "../state/model";
+import { lengthText } from "../state/words";
+import { bindTo, bindingsOf, targetText, targetsOf, targetOf, targetKey } from "../tools/bindings";
 import type { Requests } from "../tools/requests";
-import { button, element, Rows, setOptions, setText } from "./dom";
+import { bindingRow } from "./binding_row";
+import { Panel, section } from "./panel";
 
-export class TrackerPanel {
-  readonly root = element("section", { className: "panel", testid: "tracker-panel" });
-  private readonly list = element("div", { className: "rows" });
-  private readonly empty = element("p", { className: "empty", text: "No tracker is attached. Start the daemon with --tracker simulated to try one." });
-  private readonly rows: Rows<TrackerRow>;
-  private readonly orphans = element("div", { testid: "orphan-bindings" });
-  private seen = "";
-
+export class TrackerPanel extends Panel {
   constructor(
     model: Model,
     private readonly requests: Requests,
   ) {
-    this.root.append(element("h2", { text: "Trackers" }), this.empty, this.list, this.orphans);
-    this.rows = new Rows(this.list, (tracker) => new TrackerRow(tracker, model, requests));
+    super(section("panel", "tracker-panel", "Trackers"), model, ["scene", "trackers", "samples", "settings", "connection", "local"]);
   }
 
-  update(model: Model): void {
-    const now = [model.version.scene, model.version.trackers, model.version.samples].join();
-    if (now === this.seen) return;
-    this.seen = now;
-    this.rows.sync(model.trackers.map(({ tracker }) => tracker));
-    this.empty.hidden = model.trackers.length > 0;
-    for (const tracker of model.trackers) this.rows.rows.get(tracker.tracker)?.update(tracker, model);
-    this.showOrphans(model);
+  protected template(): TemplateResult {
+    const { trackers } = this.model;
+    return html`<h2>Trackers</h2>
+      ${trackers.length === 0 ? html`<p class="empty">No tracker is attached. Start the daemon with <code>--tracker simulated</code> to try one.</p>` : html`<p class="empty">Drag a sensor onto a goal, a part of the body, an object or the perspective view: it leads what you drop it on.</p>`}
+      <div class="rows">${repeat(trackers, ({ tracker }) => tracker, (tracker) => this.station(tracker))}</div>
+      ${this.orphans()}`;
+  }
+
+  private station({ tracker, state, kind, rate_hz, message, sensors, bad_bytes }: TrackerInfo): TemplateResult {
+    return html`<div class="row tracker" data-testid="tracker-${tracker}" data-state=${state}>
+      <div class="line"><span class="grow strong">${tracker}</span>
+        <span class="dim number" data-testid="tracker-rate">${rate_hz ? `${Math.round(rate_hz)} Hz` : ""}</span>
+        <span class="tracker-state" data-testid="tracker-state">${state}</span></div>
+      ${message ? html`<div class="note" data-testid="tracker-message">${message}</div>` : nothing}
+      ${bad_bytes ? html`<div class="note">${bad_bytes} bytes of ${kind} made no sense and were passed over</div>` : nothing}
+      ${repeat(sensors, (sensor) => sensor, (sensor) => this.sensor(sensor))}
+    </div>`;
+  }
+
+  private sensor(sensor: string): TemplateResult {
+    const { model, requests } = this;
+    const sample = model.samples.get(sensor);
+    const bound = bindingsOf(model, sensor);
+    const targets = targetsOf(model);
+    const choose = (event: Event) => {
+      const select = event.target as HTMLSelectElement;
+      const target = targets.find((one) => targetKey(one) === select.value);
+      select.value = "";
+      if (target) bindTo(model, requests, sensor, target);
+    };
+    return html`<div class="sensor" data-testid="sensor-${sensor}">
+      <div class="line">
+        <span class="chip" draggable=${model.mayEdit ? "true" : "false"} data-testid="sensor-chip" title="Drag me onto a goal, a part of the body, an object or the perspective view"
+          @dragstart=${(event: DragEvent) => event.dataTransfer?.setData("text/x-posed-sensor", sensor)}>⠿ ${sensor}</span>
+        <span class="grow"></span><span class="dim number" data-testid="sensor-place">${this.placeText(sample)}</span></div>
+      ${sample?.flags?.length ? html`<div class="note">${sample.flags.join(", ")}</div>` : nothing}
+      ${repeat(bound, ([id]) => id, ([id, binding]) => bindingRow(model, requests, id, binding))}
+      <select data-testid="sensor-target" aria-label="What ${sensor} is to lead" ?disabled=${!model.mayEdit} @change=${choose}>
+        <option value="">${bound.length > 0 ? "lead also…" : "leads nothing: choose…"}</option>
+        ${targets.map((target) => html`<option value=${targetKey(target)}>${targetText(target)}</option>`)}
+      </select>
+    </div>`;
+  }
+
+  private placeText(sample: SensorSample | undefined): string {
+    if (!sample) return "not seen";
+    return sample.position.map((value) => lengthText(value, this.model.settings.lengths).replace(/ .*/, "")).join("  ");
   }
 
   /** Bindings outlive their station: one whose sensor is not attached must still be seen and let go. */
-  private showOrphans(model: Model): void {
-    const attached = new Set(model.trackers.flatMap(({ sensors }) => sensors));
-    const orphans = Object.entries(model.scene.document.bindings).filter(([, { sensor }]) => !attached.has(sensor));
-    const key = JSON.stringify(orphans);
-    if (this.orphans.dataset["key"] === key) return;
-    this.orphans.dataset["key"] = key;
-    this.orphans.replaceChildren(
-      ...orphans.map(([id, { sensor, to }]) => bindingLine(id, `${sensor} (not attached) leads ${to.goal ?? "?"}`, this.requests)),
-    );
+  private orphans(): TemplateResult | typeof nothing {
+    const attached = new Set(this.model.trackers.flatMap(({ sensors }) => sensors));
+    const orphans = Object.entries(this.model.scene.document.bindings).filter(([, { sensor }]) => !attached.has(sensor));
+    if (orphans.length === 0) return nothing;
+    return html`<div class="rows" data-testid="orphan-bindings">${orphans.map(([id, binding]) => html`<div class="row"><div class="note">${binding.sensor} is not attached: ${targetText(targetOf(binding))}</div>${bindingRow(this.model, this.requests, id, binding)}</div>`)}</div>`;
   }
-}
-
-function bindingLine(id: string, text: string, requests: Requests): HTMLElement {
-  const remove = button("×", "binding-remove", `Remove ${id}`, () => requests.unbind(id));
-  remove.className = "quiet";
-  return element("div", { className: "line" }, element("span", { className: "grow dim", text }), remove);
-}
-
-class TrackerRow {
-  readonly root: HTMLElement;
-  private readonly state = element("span", { className: "tracker-state", testid: "tracker-state" });
-  private readonly rate = element("span", { className: "dim", testid: "tracker-rate" });
-  private readonly message = element("div", { className: "note", testid: "tracker-message" });
-  private readonly sensors = element("div", { className: "sensors" });
-  private readonly rows: Rows<SensorRow>;
-
-  constructor(tracker: string, model: Model, requests: Requests) {
-    this.root = element(
-      "div",
-      { className: "row tracker", testid: `tracker-${tracker}` },
-      element("div", { className: "line" }, element("span", { className: "grow strong", text: tracker }), this.rate, this.state),
-      this.message,
-      this.sensors,
-    );
-    this.rows = new Rows(this.sensors, (sensor) => new SensorRow(sensor, model, requests));
-  }
-
-  update(tracker: TrackerInfo, model: Model): void {
-    this.root.dataset["state"] = tracker.state;
-    setText(this.state, tracker.state);
-    setText(this.rate, tracker.rate_hz ? `${Math.round(tracker.rate_hz)} Hz` : "");
-    setText(this.message, tracker.message ?? "");
-    this.message.hidden = !tracker.message;
-    this.rows.sync(tracker.sensors);
-    for (const [sensor, row] of this.rows.rows) row.update(sensor, model);
-  }
-}
-
-class SensorRow {
-  readonly root: HTMLElement;
-  private readonly place = element("span", { className: "dim number sensor-place", testid: "sensor-place" });
-  private readonly goal = element("select", { testid: "sensor-goal", title: "The goal that follows this sensor" });
-  private readonly mode = element("select", { testid: "sensor-mode", title: "absolute: the goal goes where the sensor is; relative: it moves as the sensor moves" });
-  private readonly others = element("div", { className: "others" });
-
-  constructor(sensor: string, private readonly model: Model, private readonly requests: Requests) {
-    this.goal.setAttribute("aria-label", `goal that follows ${sensor}`);
-    this.goal.addEventListener("change", () => this.choose(sensor));
-    this.mode.setAttribute("aria-label", `how the goal follows ${sensor}`);
-    this.mode.addEventListener("change", () => this.choose(sensor));
-    this.root = element(
-      "div",
-      { className: "sensor", testid: `sensor-${sensor}` },
-      element("div", { className: "line" }, element("span", { className: "triad" }), element("span", { className: "grow", text: sensor }), this.place),
-      element("div", { className: "line" }, element("span", { className: "dim", text: "leads" }), this.goal, this.mode),
-      this.others,
-    );
-  }
-
-  update(sensor: string, model: Model): void {
-    setText(this.place, placeText(model.samples.get(sensor)));
-    const bound = bindingsOf(sensor, model);
-    const [first, ...others] = bound;
-    const led = first?.[1].to.goal;
-    const goals = Object.keys(model.scene.document.goals).filter((id) => id === led || model.movable(id)).sort();
-    setOptions(this.goal, [["", "no goal"], ...goals.map((id) => [id, id] as const)], led ?? "");
-    setOptions(this.mode, [["absolute", "absolute"], ["relative", "relative"]], first?.[1].mode ?? (this.mode.value || "absolute"));
-    const key = others.map(([id, { to }]) => `${id}>${to.goal}`).join();
-    if (this.others.dataset["key"] === key) return;
-    this.others.dataset["key"] = key;
-    // One sensor may lead several goals; the select shows the first, the rest can be let go here.
-    this.others.replaceChildren(...others.map(([id, { to }]) => bindingLine(id, `also ${to.goal ?? "?"}`, this.requests)));
-  }
-
-  private choose(sensor: string): void {
-    const [first] = bindingsOf(sensor, this.model);
-    const goal = this.goal.value;
-    if (!goal) {
-      if (first) this.requests.unbind(first[0]);
-      return;
-    }
-    const id = first?.[0] ?? freeId(sensor, this.model);
-    const mode = this.mode.value === "relative" ? "relative" : "absolute";
-    this.requests.bind(id, { sensor, to: { goal }, axes: ["x", "y", "z"], mode });
-  }
-}
-
-function bindingsOf(sensor: string, model: Model): Array<[string, BindingDocument]> {
-  return Object.entries(model.scene.document.bindings)
-    .filter(([, binding]) => binding.sensor === sensor)
-    .sort(([a], [b]) => (a < b ? -1 : 1));
-}
-
-/** A sensor's name has a colon, an id must not. */
-function freeId(sensor: string, model: Model): string {
-  const base = sensor.replace(/[^A-Za-z0-9_.-]/g, ".").slice(0, 58);
-  let id = base;
-  for (let n = 2; id in model.scene.document.bindings; n++) id = `${base}.${n}`;
-  return id;
-}
-
-function placeText(sample: SensorSample | undefined): string {
-  if (!sample) return "not seen";
-  const place = sample.position.map((value) => value.toFixed(2)).join("  ");
-  return sample.flags?.length ? `${place}  ${sample.flags.join(" ")}` : place;
 }

@@ -16,11 +16,23 @@ export type Shape =
   | { kind: "ellipsoid"; center: Vec3; radii: Vec3 }
   | { kind: "box"; center: Vec3; half_size: Vec3 };
 
+export interface JointDocument {
+  name: string;
+  type: "free" | "ball" | "universal" | "hinge" | "prismatic" | "fixed";
+  position: Vec3;
+  quat_xyzw?: Quat;
+  axes?: Vec3[];
+  limits?: Array<[number, number] | null>;
+  swing?: { ellipse: [number, number]; center?: Vec3 } | { polygon: Vec3[] };
+  twist?: [number, number];
+}
+
 export interface SegmentDocument {
   name: string;
   parent?: string;
   touch_point: Vec3;
   shape?: Shape[];
+  joint?: JointDocument;
 }
 
 export interface FigureDocument {
@@ -28,6 +40,7 @@ export interface FigureDocument {
   root: string;
   segments: SegmentDocument[];
   sites?: Record<string, { segment: string; point: Vec3 }>;
+  mirror?: Array<[string, string]>;
 }
 
 export interface FigureReply {
@@ -38,30 +51,87 @@ export interface FigureReply {
 
 export type At = string | { segment: string; point: Vec3 };
 
+export type Frame = "world" | { figure?: string; segment: string } | { sensor: string } | { object: string };
+
+export type GoalKind = "position" | "orientation" | "pose" | "aim" | "plane" | "line" | "distance" | "balance" | "posture";
+
+export interface Aim {
+  axis: Vec3;
+  point?: Vec3;
+  direction?: Vec3;
+}
+
+/** A share of q, an angle or a length, or the paper's three numbers. */
+export type JointValue = number | number[] | { halfplane: number; deviation: number; twist: number };
+
 export interface GoalDocument {
   figure?: string;
-  /** position orientation pose aim plane line distance balance posture; the viewer moves the first, and shows the others. */
-  kind?: string;
+  kind?: GoalKind;
   at?: At;
   position?: Vec3;
-  relative_to?: "world" | { figure?: string; segment: string } | { sensor: string };
+  orientation?: { quat_xyzw: Quat };
+  aim?: Aim;
+  plane?: { point: Vec3; normal: Vec3; side?: "on" | "above" };
+  line?: { point: Vec3; direction: Vec3 };
+  distance?: { to: At; length: number; compare?: "equal" | "at_least" | "at_most" };
+  balance?: { support: At[]; margin?: number };
+  posture?: { pose?: "rest" | "start"; joints?: Record<string, JointValue> };
+  relative_to?: Frame;
   weight?: number | { position: number; orientation: number };
+  priority?: number;
+  tolerance?: number | Vec3;
   enabled?: boolean;
   label?: string;
 }
 
+export interface Filter {
+  min_cutoff?: number;
+  beta?: number;
+  [field: string]: unknown;
+}
+
 export interface BindingDocument {
   sensor: string;
-  to: { goal?: string };
+  to: { goal?: string; object?: string; joint?: string; figure?: string; camera?: string };
   axes?: string[];
   mode?: "absolute" | "relative";
+  clutch?: { button: number } | null;
   scale?: number;
+  filter?: Filter | null;
+}
+
+export interface ObjectDocument {
+  position?: Vec3;
+  quat_xyzw?: Quat;
+  shape?: Shape[];
+  label?: string;
+}
+
+export interface CameraDocument {
+  position?: Vec3;
+  quat_xyzw?: Quat;
+  relative_to?: Frame;
+  fov_y?: number;
+}
+
+export interface PinDocument {
+  hold: "position" | "orientation" | "pose";
+  position?: Vec3;
+  quat_xyzw?: Quat;
+}
+
+export interface SceneFigure {
+  template?: string;
+  stature?: number;
+  pins?: Record<string, PinDocument>;
 }
 
 export interface SceneDocument {
-  figures?: Record<string, unknown>;
+  figures?: Record<string, SceneFigure>;
   goals?: Record<string, GoalDocument>;
+  objects?: Record<string, ObjectDocument>;
   bindings?: Record<string, BindingDocument>;
+  cameras?: Record<string, CameraDocument>;
 }
 
 export interface PatchOperation {
@@ -82,6 +152,7 @@ export interface GoalPose {
   touch: Vec3;
   target: Vec3;
   error: number;
+  force?: Vec3;
   state: GoalState;
   causes?: Array<{ goal?: string; beyond_m?: number; limit?: string; side?: string; pin?: string; figure?: string }>;
 }
@@ -136,7 +207,51 @@ export interface HelloReply {
   protocol: number;
   daemon: { name: string; version: string };
   session: string;
+  resume?: string;
   boot: string;
+  features?: string[];
+  role?: "none" | "viewer" | "editor" | "operator";
+  clock?: { t_ns: number; utc_ns: number };
+}
+
+export interface PingReply {
+  receive_t_ns: number;
+  send_t_ns: number;
+}
+
+export interface SessionInfo {
+  session: string;
+  user?: string;
+  face?: string;
+  client?: { name: string };
+}
+
+export interface HistoryStep {
+  step: number;
+  revision: number;
+  t_ns: number;
+  user?: string;
+  session: string;
+  method: string;
+  label?: string;
+  entities: string[];
+  mine: boolean;
+  undone: boolean;
+}
+
+export interface CameraFrame {
+  t_ns: number;
+  cameras: Array<{ camera: string; position: Vec3; quat_xyzw: Quat; fov_y: number }>;
+}
+
+export interface JointReply {
+  figure: string;
+  joint: string;
+  type: string;
+  value: number | number[];
+  halfplane?: number;
+  deviation?: number;
+  twist?: number;
 }
 
 export interface EditReply {
@@ -145,4 +260,4 @@ export interface EditReply {
   entity_revision?: number;
 }
 
-export type StreamName = "pose" | "tracker" | "scene" | "stats";
+export type StreamName = "pose" | "tracker" | "scene" | "stats" | "camera";

@@ -38,6 +38,8 @@ function complete(document: SceneDocument): Required<SceneDocument> {
   return Object.assign(document, {
     figures: document.figures ?? {},
     goals: document.goals ?? {},
+    objects: document.objects ?? {},
     bindings: document.bindings ?? {},
+    cameras: document.cameras ?? {},
   });
 }

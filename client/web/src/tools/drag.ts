@@ -1,5 +1,6 @@
 // What the pointer does while a button is down.
 export interface Drag {
-  move(x: number, y: number): void;
+  /** `snap`: the key that snaps, or that lets go where snapping is on. */
+  move(x: number, y: number, snap: boolean): void;
   end(): void;
 }

@@ -1,11 +1,8 @@
-// Edits of goals on their way to the daemon: at most one in flight for each goal, and the newest wins.
-import type { EditReply, Vec3 } from "../protocol/types";
-
-export interface GoalFields {
-  position?: Vec3;
-  weight?: number;
-  enabled?: boolean;
-}
+// Edits of goals on their way to the daemon: the newest of a goal wins, and only some are under way. Where nothing is, an
+// edit goes at once; over a long line others follow it before it is answered, spaced, so that a figure follows a drag there too.
+import { browserClock, type Clock } from "../protocol/connection";
+import type { EditReply } from "../protocol/types";
+import type { GoalFields } from "../state/goals";
 
 export interface EditEvents {
   /** Nothing of this goal is in flight or waiting any more. Revision is null when the last edit was refused. */
@@ -13,43 +10,65 @@ export interface EditEvents {
   failed(error: unknown): void;
 }
 
+/** Edits with the same text are one step to undo. */
+type Gesture = { gesture?: string };
+
+const kMostInFlight = 8;
+const kSpacingMs = 30;
+
+interface Line {
+  inFlight: number;
+  waiting: (GoalFields & Gesture) | null;
+  sentMs: number;
+  /** Of the edit that was sent last; null: refused, or not answered yet. */
+  revision: number | null;
+  cancel: () => void;
+}
+
 export class GoalEdits {
-  private readonly inFlight = new Set<string>();
-  private readonly waiting = new Map<string, GoalFields>();
+  private readonly lines = new Map<string, Line>();
 
   constructor(
     private readonly request: (method: string, params: object) => Promise<EditReply>,
     private readonly events: EditEvents,
+    private readonly clock: Clock = browserClock,
   ) {}
 
-  set(goal: string, fields: GoalFields): void {
+  set(goal: string, fields: GoalFields, gesture?: string): void {
+    const line = this.lines.get(goal) ?? { inFlight: 0, waiting: null, sentMs: -Infinity, revision: null, cancel: () => {} };
+    this.lines.set(goal, line);
     // Fields of different kinds add up; a newer value of one field replaces the older.
-    this.waiting.set(goal, { ...this.waiting.get(goal), ...fields });
-    if (!this.inFlight.has(goal)) void this.send(goal);
+    line.waiting = { ...line.waiting, ...fields, ...(gesture === undefined ? {} : { gesture }) };
+    this.pump(goal, line);
   }
 
   busy(goal: string): boolean {
-    return this.inFlight.has(goal);
+    return this.lines.has(goal);
   }
 
-  private async send(goal: string): Promise<void> {
-    this.inFlight.add(goal);
-    let revision: number | null = null;
-    for (let fields = this.take(goal); fields; fields = this.take(goal)) {
-      try {
-        revision = (await this.request("goal.set", { id: goal, ...fields })).revision;
-      } catch (error) {
-        revision = null;
-        this.events.failed(error);
-      }
+  private pump(goal: string, line: Line): void {
+    if (!line.waiting || line.inFlight >= kMostInFlight) return;
+    const pause = line.inFlight === 0 ? 0 : line.sentMs + kSpacingMs - this.clock.now();
+    line.cancel();
+    if (pause > 0) line.cancel = this.clock.after(pause, () => this.pump(goal, line));
+    else void this.send(goal, line, line.waiting);
+  }
+
+  private async send(goal: string, line: Line, fields: GoalFields & Gesture): Promise<void> {
+    line.waiting = null;
+    line.sentMs = this.clock.now();
+    line.inFlight++;
+    try {
+      // Replies come in the order of the edits.
+      line.revision = (await this.request("goal.set", { id: goal, ...fields })).revision;
+    } catch (error) {
+      line.revision = null;
+      this.events.failed(error);
     }
-    this.inFlight.delete(goal);
-    this.events.settled(goal, revision);
-  }
-
-  private take(goal: string): GoalFields | undefined {
-    const fields = this.waiting.get(goal);
-    this.waiting.delete(goal);
-    return fields;
+    line.inFlight--;
+    this.pump(goal, line);
+    if (line.inFlight > 0 || line.waiting) return;
+    this.lines.delete(goal);
+    this.events.settled(goal, line.revision);
   }
 }

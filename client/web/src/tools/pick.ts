@@ -1,9 +1,7 @@
-// What lies under the pointer: a goal's cube by its distance on the screen, a segment by a ray.
-import { Raycaster, Vector3 } from "three";
+// Which goal lies under the pointer: by its distance on the screen.
+import { Vector3 } from "three";
 import type { Model } from "../state/model";
-import type { SegmentKey } from "../views/figure_view";
 import type { ViewName } from "../views/names";
-import { rayAt } from "../views/projection";
 import type { Views } from "../views/views";
 
 const kReachPixels = 14;
@@ -22,14 +20,4 @@ export function pickGoal(views: Views, model: Model, name: ViewName, x: number, 
     if (rank < nearest) [nearest, best] = [rank, id];
   }
   return best;
-}
-
-export function pickSegment(views: Views, name: ViewName, x: number, y: number): SegmentKey | null {
-  const rect = views.panes.rect(name);
-  const camera = views.cameras.camera(name, rect);
-  const ray = rayAt(camera, rect, x, y);
-  const caster = new Raycaster(ray.origin, ray.direction);
-  caster.camera = camera;
-  const hit = caster.intersectObject(views.figures.group, true)[0];
-  return hit ? (hit.object.userData as SegmentKey) : null;
 }

@@ -1,12 +1,15 @@
-// The mouse in the panes: decides which tool a press belongs to and hands the drag on to it.
-import type { Drag } from "./drag";
+// The mouse in the panes: decides which tool a press belongs to. What belongs to none goes on to the view's own controls.
 import type { Model } from "../state/model";
-import { isOrtho, viewNames, type ViewName } from "../views/names";
+import { viewNames, type ViewName } from "../views/names";
 import type { Views } from "../views/views";
+import type { Drag } from "./drag";
+import { dragGizmo, gizmoPlace } from "./drag_gizmo";
 import { dragGoal } from "./drag_goal";
-import { makeGoal } from "./make_goal";
-import { pickGoal, pickSegment } from "./pick";
+import { makeGoal, placeAt } from "./make_goal";
+import { pickGoal } from "./pick";
 import type { Requests } from "./requests";
+
+const kClickPixels = 4;
 
 export function listenToPointer(views: Views, model: Model, requests: Requests): void {
   for (const name of viewNames) new PanePointer(views, model, requests, name);
@@ -14,6 +17,8 @@ export function listenToPointer(views: Views, model: Model, requests: Requests):
 
 class PanePointer {
   private drag: Drag | null = null;
+  /** Where a press began that may become a click on a body. */
+  private pressed: { x: number; y: number } | null = null;
   private readonly pane: HTMLElement;
 
   constructor(
@@ -23,81 +28,80 @@ class PanePointer {
     private readonly name: ViewName,
   ) {
     this.pane = views.panes.elements[name];
-    this.pane.addEventListener("pointerdown", (event) => this.down(event));
+    // Before the view's controls, which listen to the same pane.
+    this.pane.addEventListener("pointerdown", (event) => this.down(event), { capture: true });
     this.pane.addEventListener("pointermove", (event) => this.move(event));
-    for (const end of ["pointerup", "pointercancel"] as const) this.pane.addEventListener(end, () => this.up());
-    this.pane.addEventListener("pointerleave", () => this.hover(null));
+    for (const end of ["pointerup", "pointercancel"] as const) this.pane.addEventListener(end, (event) => this.up(event));
+    this.pane.addEventListener("pointerleave", () => !this.drag && this.hover(null));
     this.pane.addEventListener("contextmenu", (event) => event.preventDefault());
-    this.pane.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
   }
 
   private down(event: PointerEvent): void {
-    if (this.drag || (event.target as Element).closest("header")) return;
+    if ((event.target as Element).closest("header, button")) {
+      event.stopPropagation();
+      return;
+    }
+    if (this.drag) return;
+    this.pressed = event.button === 0 ? { x: event.clientX, y: event.clientY } : null;
+    this.drag = event.button === 0 ? this.choose(event) : null;
+    if (!this.drag) return;
+    this.pressed = null;
     event.preventDefault();
-    this.drag = this.choose(event);
-    if (this.drag) this.pane.setPointerCapture(event.pointerId);
+    event.stopImmediatePropagation();
+    this.pane.setPointerCapture(event.pointerId);
   }
 
   private choose(event: PointerEvent): Drag | null {
     const { views, model, requests, name } = this;
     const { clientX: x, clientY: y } = event;
-    if (event.button !== 0) return this.panFrom(x, y);
-    if (event.shiftKey || model.makingGoal) {
-      const made = makeGoal(views, model, requests, name, x, y);
-      if (made) model.makingGoal = false;
-      else model.say("No segment is under the pointer", "click on a part of a figure to give it a goal");
-      model.touch("local");
+    if (!model.mayEdit) {
+      const goal = pickGoal(views, model, name, x, y);
+      if (goal) model.select(goal);
       return null;
     }
-    const goal = dragGoal(views, model, requests, name, x, y);
-    if (goal) return goal;
-    return isOrtho(name) ? this.panFrom(x, y) : this.orbitFrom(x, y);
-  }
-
-  private panFrom(x: number, y: number): Drag {
-    return follow(x, y, (dx, dy) => this.views.cameras.pan(this.name, this.views.panes.rect(this.name), dx, dy));
-  }
-
-  private orbitFrom(x: number, y: number): Drag {
-    return follow(x, y, (dx, dy) => this.views.cameras.orbit(dx, dy));
+    if (event.shiftKey || model.makingGoal) {
+      const place = placeAt(views, model, name, x, y);
+      if (place) {
+        makeGoal(requests, place);
+        model.makingGoal = false;
+      } else model.say("No segment is under the pointer", "click on a part of a figure to give it a goal");
+      model.touch("local");
+      return { move() {}, end() {} };
+    }
+    return dragGizmo(views, model, requests, name, x, y) ?? dragGoal(views, model, requests, name, x, y);
   }
 
   private move(event: PointerEvent): void {
-    if (this.drag) this.drag.move(event.clientX, event.clientY);
-    else this.hover(event);
+    if (this.drag) this.drag.move(event.clientX, event.clientY, event.ctrlKey || event.metaKey);
+    else if (event.buttons === 0) this.hover(event);
   }
 
-  private up(): void {
+  private up(event: PointerEvent): void {
     this.drag?.end();
     this.drag = null;
+    const { pressed } = this;
+    this.pressed = null;
+    if (!pressed || event.type !== "pointerup" || Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) > kClickPixels) return;
+    const hit = this.views.segmentAt(this.name, event.clientX, event.clientY);
+    if (hit) this.model.choose(hit.key);
+    else this.model.select(null), this.model.choose(null);
   }
 
   private hover(event: PointerEvent | null): void {
     const { views, model, name } = this;
-    const goal = event && pickGoal(views, model, name, event.clientX, event.clientY);
-    const making = event !== null && (event.shiftKey || model.makingGoal);
-    const onSegment = making && event !== null && pickSegment(views, name, event.clientX, event.clientY) !== null;
-    this.pane.style.cursor = onSegment ? "copy" : making ? "crosshair" : goal !== null ? "grab" : "";
-    if (goal === model.hoveredGoal) return;
+    const before = JSON.stringify([model.hoveredGoal, model.hoveredSegment, model.hoveredPlace]);
+    const making = event !== null && (event.shiftKey || model.makingGoal) && model.mayEdit;
+    const goal = event && !making ? pickGoal(views, model, name, event.clientX, event.clientY) : null;
+    const place = event && goal === null ? placeAt(views, model, name, event.clientX, event.clientY) : null;
+    const rect = views.panes.rect(name);
+    const handle = event && !making && gizmoPlace(model) ? views.gizmo.hover(views.cameras.camera(name, rect), rect, event.clientX, event.clientY) : null;
     model.hoveredGoal = goal;
-    model.touch("local");
+    model.hoveredSegment = place && { figure: place.figure, segment: place.segment };
+    model.hoveredPlace = place && making ? { point: place.world, text: place.text } : null;
+    this.pane.style.cursor = making ? (place ? "copy" : "crosshair") : handle !== null ? "move" : goal !== null ? "grab" : place ? "pointer" : "";
+    if (event) model.activeView = name;
+    if (before !== JSON.stringify([model.hoveredGoal, model.hoveredSegment, model.hoveredPlace]) || handle !== this.handle) model.touch("local");
+    this.handle = handle;
   }
-
-  private wheel(event: WheelEvent): void {
-    event.preventDefault();
-    // Lines and pages are what some mice report instead of pixels.
-    const pixels = event.deltaY * [1, 16, 400][event.deltaMode]!;
-    const factor = Math.exp(Math.max(-300, Math.min(300, pixels)) * 0.0014);
-    this.views.cameras.zoom(this.name, this.views.panes.rect(this.name), factor, event.clientX, event.clientY);
-  }
-}
-
-function follow(x: number, y: number, by: (dx: number, dy: number) => void): Drag {
-  return {
-    move(toX, toY) {
-      by(toX - x, toY - y);
-      [x, y] = [toX, toY];
-    },
-    end() {},
-  };
+  private handle: string | null = null;
 }

@@ -1,18 +1,9 @@
-// The bodies: one object a segment, placed where the pose stream says. No kinematics here.
-import {
-  BoxGeometry,
-  CapsuleGeometry,
-  Group,
-  Mesh,
-  MeshLambertMaterial,
-  Quaternion,
-  SphereGeometry,
-  Vector3,
-  type BufferGeometry,
-} from "three";
-import type { FigureDocument, SegmentDocument, Shape, Transform, Vec3 } from "../protocol/types";
+// The bodies of the figures: a segment is placed where the pose stream says. No kinematics here.
+import { MeshLambertMaterial } from "three";
+import type { FigureDocument, SegmentDocument, Shape, Transform } from "../protocol/types";
 import type { Model } from "../state/model";
-import { segmentColor } from "./palette";
+import { Bodies, type Detail } from "./bodies";
+import { segmentColor, type Palette } from "./palette";
 
 export interface SegmentKey {
   figure: string;
@@ -20,40 +11,67 @@ export interface SegmentKey {
 }
 
 export class FigureView {
-  readonly group = new Group();
-  private readonly segments = new Map<string, Group[]>();
+  readonly bodies: Bodies<SegmentKey>;
+  private first = new Map<string, number>();
   private figuresDrawn = -1;
+  private paintedFor = "";
 
-  update(model: Model): void {
+  constructor(detail: Detail) {
+    this.bodies = new Bodies(new MeshLambertMaterial(), true, detail);
+  }
+
+  get group() {
+    return this.bodies.group;
+  }
+
+  update(model: Model, palette: Palette): void {
     if (this.figuresDrawn !== model.version.figures) {
       this.figuresDrawn = model.version.figures;
+      this.paintedFor = "";
       this.rebuild(model);
     }
-    for (const [figure, segments] of this.segments) {
+    for (const [figure, { segments }] of model.figures) {
+      const first = this.first.get(figure) ?? 0;
       const pose = model.poses.get(figure)?.worldFromSegment;
       // Between a new body's document and its first pose the two may differ in length.
       const fits = pose?.length === segments.length;
-      segments.forEach((segment, i) => {
-        segment.visible = fits;
-        if (fits) placeSegment(segment, pose[i] as Transform);
+      segments.forEach((_, i) => {
+        this.bodies.show(first + i, fits);
+        if (fits) this.bodies.place(first + i, pose[i] as Transform);
       });
     }
+    this.paint(model, palette);
   }
 
   private rebuild(model: Model): void {
-    this.group.traverse((part) => {
-      if (!(part instanceof Mesh)) return;
-      (part.geometry as BufferGeometry).dispose();
-      (part.material as MeshLambertMaterial).dispose();
-    });
-    this.group.clear();
-    this.segments.clear();
+    this.first.clear();
+    const bodies: Array<{ key: SegmentKey; shapes: readonly Shape[] }> = [];
+    for (const [figure, { segments }] of model.figures) {
+      this.first.set(figure, bodies.length);
+      for (const segment of segments) bodies.push({ key: { figure, segment: segment.name }, shapes: shapesOf(segment) });
+    }
+    this.bodies.rebuild(bodies);
+  }
+
+  private paint(model: Model, palette: Palette): void {
+    const { selectedSegment, hoveredSegment } = model;
+    const key = JSON.stringify([palette.background, selectedSegment, hoveredSegment]);
+    if (key === this.paintedFor) return;
+    this.paintedFor = key;
     for (const [figure, document] of model.figures) {
-      const built = document.segments.map((segment) => buildSegment(figure, segment, depthOf(document, segment)));
-      this.segments.set(figure, built);
-      if (built.length > 0) this.group.add(...built);
+      const first = this.first.get(figure) ?? 0;
+      document.segments.forEach((segment, i) => {
+        const is = (key: SegmentKey | null) => key?.figure === figure && key.segment === segment.name;
+        const [towards, share] = is(selectedSegment) ? [palette.selected, 0.75] : is(hoveredSegment) ? [palette.outline, 0.35] : [0, 0];
+        this.bodies.paint(first + i, segmentColor(palette, segment.name, depthOf(document, segment)), towards, share);
+      });
     }
   }
+}
+
+/** A segment without a shape still shows: a thin capsule from its joint to its touch point. */
+export function shapesOf({ shape, touch_point }: SegmentDocument): readonly Shape[] {
+  return shape?.length ? shape : [{ kind: "capsule", from: [0, 0, 0], to: touch_point, radius: 0.015 }];
 }
 
 function depthOf(document: FigureDocument, segment: SegmentDocument): number {
@@ -65,53 +83,4 @@ function depthOf(document: FigureDocument, segment: SegmentDocument): number {
     depth++;
   }
   return depth;
-}
-
-function buildSegment(figure: string, segment: SegmentDocument, depth: number): Group {
-  const key: SegmentKey = { figure, segment: segment.name };
-  const material = new MeshLambertMaterial({
-    color: segmentColor(segment.name, depth),
-  });
-  const group = new Group();
-  group.name = segment.name;
-  const shapes = segment.shape?.length ? segment.shape : [bareBone(segment)];
-  for (const shape of shapes) {
-    const mesh = buildShape(shape, material);
-    mesh.userData = key;
-    group.add(mesh);
-  }
-  return group;
-}
-
-/** A segment without a shape still shows: a thin capsule from its joint to its touch point. */
-function bareBone({ touch_point }: SegmentDocument): Shape {
-  return { kind: "capsule", from: [0, 0, 0], to: touch_point, radius: 0.015 };
-}
-
-function buildShape(shape: Shape, material: MeshLambertMaterial): Mesh {
-  if (shape.kind === "box") {
-    const [x, y, z] = shape.half_size;
-    return at(new Mesh(new BoxGeometry(2 * x, 2 * y, 2 * z), material), shape.center);
-  }
-  if (shape.kind === "ellipsoid") {
-    const mesh = at(new Mesh(new SphereGeometry(1, 28, 16), material), shape.center);
-    mesh.scale.set(...shape.radii);
-    return mesh;
-  }
-  const from = new Vector3(...shape.from);
-  const along = new Vector3(...shape.to).sub(from);
-  const mesh = new Mesh(new CapsuleGeometry(shape.radius, along.length(), 5, 16), material);
-  mesh.position.copy(from).addScaledVector(along, 0.5);
-  mesh.quaternion.copy(new Quaternion().setFromUnitVectors(new Vector3(0, 1, 0), along.normalize()));
-  return mesh;
-}
-
-function at(mesh: Mesh, [x, y, z]: Vec3): Mesh {
-  mesh.position.set(x, y, z);
-  return mesh;
-}
-
-function placeSegment(segment: Group, [x, y, z, qx, qy, qz, qw]: Transform): void {
-  segment.position.set(x, y, z);
-  segment.quaternion.set(qx, qy, qz, qw);
 }

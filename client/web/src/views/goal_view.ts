@@ -1,117 +1,145 @@
 // Goals as the paper draws them: a cube, and a line from it to the point of the body that it pulls.
 import {
+  BackSide,
   BoxGeometry,
-  EdgesGeometry,
+  Color,
   Group,
-  LineBasicMaterial,
-  LineSegments,
-  Mesh,
+  InstancedMesh,
+  Matrix4,
   MeshBasicMaterial,
   MeshLambertMaterial,
+  Quaternion,
   SphereGeometry,
   Vector3,
+  type BufferGeometry,
   type Camera,
+  type Material,
 } from "three";
-import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
-import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
-import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
+import type { Quat } from "../protocol/types";
 import type { Model } from "../state/model";
-import { goalColors } from "./palette";
+import { FatLines } from "./fat_lines";
+import { drawGoalShape } from "./goal_shapes";
+import type { Palette } from "./palette";
 import { metresPerPixel, type PaneRect } from "./projection";
 
-const kCubeMetres = 0.045;
+const kCubeMetres = 0.042;
 const kCubePixels = 13;
-const kTouchPixels = 4;
+const kTouchPixels = 4.5;
+const kRim = 1.22;
 
-const cubeGeometry = new BoxGeometry(1, 1, 1);
-const edgeGeometry = new EdgesGeometry(cubeGeometry);
-const touchGeometry = new SphereGeometry(1, 16, 12);
+const cube = new BoxGeometry(1, 1, 1);
+const ball = new SphereGeometry(1, 14, 10);
 
-class GoalMark {
-  readonly group = new Group();
-  readonly cube = new Group();
-  readonly touch: Mesh;
-  private readonly solid = new MeshLambertMaterial();
-  // The same cube again, faint and without depth: a reached goal lies inside the hand and must still be seen.
-  private readonly ghost = new MeshBasicMaterial({ transparent: true, opacity: 0.45, depthTest: false, depthWrite: false });
-  private readonly edges = new LineBasicMaterial({ transparent: true, depthTest: false, depthWrite: false });
-  private readonly touchMaterial = new MeshBasicMaterial({ transparent: true, depthTest: false, depthWrite: false });
-  private readonly lineMaterial = new LineMaterial({ linewidth: 2, transparent: true, depthTest: false, depthWrite: false });
-  private readonly line = new LineSegments2(new LineSegmentsGeometry(), this.lineMaterial);
-
-  constructor() {
-    const ghost = new Mesh(cubeGeometry, this.ghost);
-    const edges = new LineSegments(edgeGeometry, this.edges);
-    this.touch = new Mesh(touchGeometry, this.touchMaterial);
-    this.line.frustumCulled = false;
-    this.line.renderOrder = 10;
-    this.touch.renderOrder = 11;
-    ghost.renderOrder = 12;
-    edges.renderOrder = 13;
-    this.cube.add(new Mesh(cubeGeometry, this.solid), ghost, edges);
-    this.group.add(this.line, this.touch, this.cube);
-  }
-
-  set(target: Vector3, touch: Vector3 | null, color: number, strong: boolean, off: boolean): void {
-    this.cube.position.copy(target);
-    for (const material of [this.solid, this.ghost, this.touchMaterial, this.lineMaterial]) material.color.set(color);
-    this.edges.color.set(strong ? 0xffffff : color).lerp(this.edges.color.clone().set(0xffffff), 0.35);
-    this.lineMaterial.opacity = off ? 0.45 : 1;
-    this.lineMaterial.linewidth = strong ? 3 : 2;
-    this.touch.visible = this.line.visible = touch !== null;
-    if (!touch) return;
-    this.touch.position.copy(touch);
-    this.line.geometry.setPositions([...target.toArray(), ...touch.toArray()]);
-  }
-
-  /** Never smaller on the screen than a hand can grab. */
-  scaleFor(camera: Camera, rect: PaneRect): void {
-    const perPixel = metresPerPixel(camera, rect, this.cube.position);
-    this.cube.scale.setScalar(Math.max(kCubeMetres, kCubePixels * perPixel));
-    this.touch.scale.setScalar(kTouchPixels * metresPerPixel(camera, rect, this.touch.position));
-  }
-
-  dispose(): void {
-    for (const material of [this.solid, this.ghost, this.edges, this.touchMaterial, this.lineMaterial]) material.dispose();
-    this.line.geometry.dispose();
-  }
+interface Mark {
+  target: Vector3;
+  touch: Vector3 | null;
+  turn: Quaternion;
+  color: number;
+  rim: number;
 }
 
 export class GoalView {
   readonly group = new Group();
-  private readonly marks = new Map<string, GoalMark>();
+  private readonly thin = new FatLines({ width: 1.6, opacity: 0.85 });
+  private readonly thick = new FatLines({ width: 3, order: 11 });
+  // Drawn without depth: a reached goal lies inside the hand and must still be seen.
+  private readonly rims = new Instances(cube, new MeshBasicMaterial({ side: BackSide, depthTest: false, depthWrite: false, transparent: true }), 12);
+  private readonly faint = new Instances(cube, new MeshLambertMaterial({ depthTest: false, depthWrite: false, transparent: true, opacity: 0.8 }), 13);
+  private readonly touches = new Instances(ball, new MeshBasicMaterial({ depthTest: false, depthWrite: false, transparent: true }), 14);
+  private marks: Mark[] = [];
 
-  update(model: Model): void {
-    const goals = model.scene.document.goals;
-    for (const [id, mark] of this.marks) {
-      if (id in goals && model.goalTarget(id)) continue;
-      this.group.remove(mark.group);
-      mark.dispose();
-      this.marks.delete(id);
-    }
-    for (const id of Object.keys(goals)) {
-      const target = model.goalTarget(id);
-      if (!target) continue;
+  constructor() {
+    this.group.add(this.thin.object, this.thick.object);
+    for (const { holder } of [this.rims, this.faint, this.touches]) this.group.add(holder);
+  }
+
+  update(model: Model, palette: Palette): void {
+    this.marks = [];
+    this.thin.begin();
+    this.thick.begin();
+    for (const [id, goal] of Object.entries(model.scene.document.goals)) {
+      const place = model.goalTarget(id);
+      if (!place) continue;
       const pose = model.goalPose(id);
-      const off = goals[id]?.enabled === false;
-      const state = off ? "off" : (pose?.state ?? "off");
-      const touch = pose ? new Vector3(...pose.touch) : null;
+      const off = goal.enabled === false;
+      const color = palette.goals[off ? "off" : (pose?.state ?? "off")] ?? palette.goals.off;
       const strong = id === model.selectedGoal || id === model.hoveredGoal;
-      this.mark(id).set(new Vector3(...target), touch, goalColors[state] ?? goalColors.off, strong, off);
+      const [target, touch] = [new Vector3(...place), pose ? new Vector3(...pose.touch) : null];
+      const turn = new Quaternion(...(model.goalTurn(id) ?? ([0, 0, 0, 1] as Quat)));
+      const lines = strong ? this.thick : this.thin;
+      if (touch) lines.add(target, touch, color);
+      drawGoalShape(lines, goal, model.goalFrame(goal), target, color, strong);
+      this.marks.push({ target, touch, turn, color, rim: strong ? palette.outline : color });
     }
+    this.thin.end();
+    this.thick.end();
+    const count = this.marks.length;
+    for (const instances of [this.rims, this.faint, this.touches]) instances.reserve(count);
+    this.marks.forEach(({ color, rim }, i) => {
+      this.rims.paint(i, rim, 0.35, palette.background);
+      this.faint.paint(i, color);
+      this.touches.paint(i, color);
+    });
   }
 
+  /** Never smaller on the screen than a hand can grab. */
   scaleFor(camera: Camera, rect: PaneRect): void {
-    for (const mark of this.marks.values()) mark.scaleFor(camera, rect);
+    this.marks.forEach(({ target, touch, turn }, i) => {
+      const size = Math.max(kCubeMetres, kCubePixels * metresPerPixel(camera, rect, target));
+      this.rims.place(i, target, turn, size * kRim);
+      this.faint.place(i, target, turn, size);
+      this.touches.place(i, touch ?? target, turn, touch ? kTouchPixels * metresPerPixel(camera, rect, touch) : 0);
+    });
+    for (const instances of [this.rims, this.faint, this.touches]) instances.sent();
+  }
+}
+
+const matrix = new Matrix4();
+const extent = new Vector3();
+const tint = new Color();
+
+/** An instanced mesh that grows. */
+class Instances {
+  readonly holder = new Group();
+  private mesh: InstancedMesh;
+
+  constructor(
+    private readonly geometry: BufferGeometry,
+    private readonly material: Material,
+    private readonly order: number,
+  ) {
+    this.mesh = this.make(16);
   }
 
-  private mark(id: string): GoalMark {
-    let mark = this.marks.get(id);
-    if (!mark) {
-      mark = new GoalMark();
-      this.marks.set(id, mark);
-      this.group.add(mark.group);
+  reserve(count: number): void {
+    if (count > this.mesh.instanceMatrix.count) {
+      this.mesh.dispose();
+      this.mesh = this.make(count * 2);
     }
-    return mark;
+    this.mesh.count = count;
+  }
+
+  place(index: number, at: Vector3, turn: Quaternion, size: number): void {
+    this.mesh.setMatrixAt(index, matrix.compose(at, turn, extent.setScalar(size)));
+  }
+
+  paint(index: number, color: number, share = 0, towards = 0): void {
+    this.mesh.setColorAt(index, tint.set(color).lerp(new Color(towards), share));
+    this.mesh.instanceColor!.needsUpdate = true;
+  }
+
+  sent(): void {
+    this.mesh.instanceMatrix.needsUpdate = true;
+  }
+
+  private make(capacity: number): InstancedMesh {
+    const mesh = new InstancedMesh(this.geometry, this.material, capacity);
+    mesh.setColorAt(0, tint);
+    mesh.frustumCulled = false;
+    mesh.renderOrder = this.order;
+    mesh.count = 0;
+    this.holder.clear();
+    this.holder.add(mesh);
+    return mesh;
   }
 }

@@ -1,15 +1,32 @@
-// The four panes of the page that lie over the one canvas: titles, places, and which one is maximised.
+// The four panes of the page that lie over the one canvas: titles, sizes, and which one is maximised.
 import { titles, viewNames, type ViewName } from "./names";
 import type { PaneRect } from "./projection";
+import { Splitters, type Split } from "./splitters";
 
 export class Panes {
   readonly elements: Record<ViewName, HTMLElement>;
   maximised: ViewName | null = null;
   version = 0;
+  private readonly splitters: Splitters;
+  private rects!: Record<ViewName, DOMRect>;
+  private measuredFor = -1;
 
   constructor(private readonly parent: HTMLElement) {
     this.elements = Object.fromEntries(viewNames.map((name) => [name, this.build(name)])) as Record<ViewName, HTMLElement>;
-    new ResizeObserver(() => this.version++).observe(parent);
+    this.splitters = new Splitters(parent, () => this.version++);
+    const resized = new ResizeObserver(() => this.version++);
+    resized.observe(parent);
+    // What stands above can come and go and leave the size as it is.
+    resized.observe(document.body);
+    window.addEventListener("resize", () => this.version++);
+  }
+
+  get split(): Split {
+    return this.splitters.split;
+  }
+
+  set split(split: Split) {
+    this.splitters.split = split;
   }
 
   toggle(name: ViewName | null): void {
@@ -23,8 +40,19 @@ export class Panes {
     return viewNames.filter((name) => !this.elements[name].hidden);
   }
 
+  /** Asking the browser may make it lay the page out, so it is asked once for each change. */
   rect(name: ViewName): PaneRect {
-    return this.elements[name].getBoundingClientRect();
+    if (this.measuredFor !== this.version) {
+      this.measuredFor = this.version;
+      this.rects = Object.fromEntries(viewNames.map((view) => [view, this.elements[view].getBoundingClientRect()])) as Record<ViewName, DOMRect>;
+    }
+    return this.rects[name];
+  }
+
+  /** What stands in a pane's title beside its name. */
+  says(name: ViewName, text: string): void {
+    const says = this.elements[name].querySelector(".pane-says");
+    if (says && says.textContent !== text) says.textContent = text;
   }
 
   private build(name: ViewName): HTMLElement {
@@ -33,6 +61,7 @@ export class Panes {
     pane.className = `pane pane-${name}`;
     pane.dataset["testid"] = `view-${name}`;
     pane.dataset["view"] = name;
+    pane.setAttribute("aria-label", `${called} view`);
     const title = document.createElement("header");
     title.dataset["testid"] = `title-${name}`;
     title.title = `Double-click or press ${key} to maximise`;

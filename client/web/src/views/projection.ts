@@ -1,5 +1,5 @@
 // From world to page pixels and back, the same for orthographic and perspective cameras.
-import { Plane, Ray, Vector3, type Camera } from "three";
+import { OrthographicCamera, Plane, Ray, Vector3, type Camera } from "three";
 
 /** A pane in page pixels, as getBoundingClientRect gives it. */
 export interface PaneRect {
@@ -40,10 +40,14 @@ export function onViewPlane(camera: Camera, rect: PaneRect, x: number, y: number
   return rayAt(camera, rect, x, y).intersectPlane(plane, new Vector3());
 }
 
-/** World metres that one page pixel spans at a point. */
+const toPoint = new Vector3();
+
+/** World metres that one page pixel spans at a point. Asked for each cube in each pane, so without projecting. */
 export function metresPerPixel(camera: Camera, rect: PaneRect, at: Vector3): number {
-  const up = new Vector3().setFromMatrixColumn(camera.matrixWorld, 1);
-  const a = project(camera, rect, at);
-  const b = project(camera, rect, at.clone().add(up));
-  return 1 / Math.max(Math.hypot(a.x - b.x, a.y - b.y), 1e-6);
+  if (camera instanceof OrthographicCamera) return (camera.top - camera.bottom) / camera.zoom / rect.height;
+  // The third row of the view matrix is the way out of the screen.
+  const { elements } = camera.matrixWorld;
+  toPoint.setFromMatrixPosition(camera.matrixWorld).sub(at);
+  const depth = toPoint.x * elements[8]! + toPoint.y * elements[9]! + toPoint.z * elements[10]!;
+  return (Math.max(depth, 1e-3) * 2) / camera.projectionMatrix.elements[5]! / rect.height;
 }

@@ -1,0 +1,70 @@
+// What a sensor can lead, and the binding that makes it so.
+import type { BindingDocument } from "../protocol/types";
+import type { Model } from "../state/model";
+import { goalName, plain } from "../state/words";
+import type { Requests } from "./requests";
+
+export type Target = { goal: string } | { object: string } | { joint: string; figure: string } | { camera: string };
+
+/** Whether this daemon does more than goals and objects: it says so in its hello. */
+export function mayUse(model: Model, what: "joints" | "cameras" | "clutch"): boolean {
+  return model.hello?.features?.includes(what === "cameras" ? "cameras" : what) ?? false;
+}
+
+export function targetKey(target: Target): string {
+  return JSON.stringify(target);
+}
+
+export function targetText(target: Target | null): string {
+  if (!target) return "nothing";
+  if ("goal" in target) return `goal ${goalName(target.goal)}`;
+  if ("object" in target) return `object ${plain(target.object)}`;
+  if ("camera" in target) return `camera ${target.camera}`;
+  return `joint ${plain(target.joint)}`;
+}
+
+export function targetOf({ to }: BindingDocument): Target | null {
+  if (to.goal !== undefined) return { goal: to.goal };
+  if (to.object !== undefined) return { object: to.object };
+  if (to.camera !== undefined) return { camera: to.camera };
+  return to.joint === undefined ? null : { joint: to.joint, figure: to.figure ?? "body" };
+}
+
+/** All that a sensor could lead now. */
+export function targetsOf(model: Model): Target[] {
+  const { goals, objects } = model.scene.document;
+  return [
+    ...Object.entries(goals).filter(([, { position, relative_to = "world" }]) => position && relative_to === "world").map(([goal]) => ({ goal })).sort((a, b) => (a.goal < b.goal ? -1 : 1)),
+    ...Object.keys(objects).map((object) => ({ object })),
+    ...(mayUse(model, "cameras") ? [{ camera: "main" }] : []),
+    ...(mayUse(model, "joints") && model.selectedSegment ? jointOf(model, model.selectedSegment.figure, model.selectedSegment.segment) : []),
+  ];
+}
+
+export function jointOf(model: Model, figure: string, segment: string): Target[] {
+  const joint = model.figures.get(figure)?.segments.find(({ name }) => name === segment)?.joint;
+  return joint && (joint.type === "ball" || joint.type === "universal") ? [{ joint: joint.name, figure }] : [];
+}
+
+export function bindingsOf(model: Model, sensor: string): Array<[string, BindingDocument]> {
+  return Object.entries(model.scene.document.bindings).filter(([, binding]) => binding.sensor === sensor).sort(([a], [b]) => (a < b ? -1 : 1));
+}
+
+export function axesOf({ axes, to }: BindingDocument): string[] {
+  return axes ?? (to.goal === undefined ? ["x", "y", "z", "rx", "ry", "rz"] : ["x", "y", "z"]);
+}
+
+/** What is bound already changes its sensor; else a new binding is made. */
+export function bindTo(model: Model, requests: Requests, sensor: string, target: Target): void {
+  const same = Object.entries(model.scene.document.bindings).find(([, binding]) => targetKey(targetOf(binding) ?? { goal: "" }) === targetKey(target));
+  const axes = "goal" in target ? { axes: ["x", "y", "z"] } : "joint" in target ? { axes: ["rx", "ry", "rz"] } : {};
+  requests.bind(same?.[0] ?? freeId(model, sensor), { sensor, to: target, mode: "absolute", ...axes });
+}
+
+/** A sensor's name has a colon, an id must not. */
+function freeId(model: Model, sensor: string): string {
+  const base = sensor.replace(/[^A-Za-z0-9_.-]/g, ".").slice(0, 58);
+  let id = base;
+  for (let n = 2; id in model.scene.document.bindings; n++) id = `${base}.${n}`;
+  return id;
+}
