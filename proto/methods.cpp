@@ -57,6 +57,10 @@ constexpr std::array kMethods{
     method<BindingGet>("binding.get"),
     method<BindingList>("binding.list"),
     method<BindingRemove>("binding.remove", kEdits),
+    method<CameraSet>("camera.set", kEdits),
+    method<CameraGet>("camera.get"),
+    method<CameraList>("camera.list"),
+    method<CameraRemove>("camera.remove", kEdits),
     method<JointSet>("joint.set", kEdits),
     method<JointGet>("joint.get"),
     method<PoseGet>("pose.get"),
@@ -73,6 +77,14 @@ constexpr std::array kMethods{
     method<SceneSave>("scene.save"),
     method<SceneOpen>("scene.open", Edits::whole),
     method<TrackerList>("tracker.list"),
+    method<TrackerGrab>("tracker.grab"),
+    method<TrackerRelease>("tracker.release"),
+    method<TrackerConfigure>("tracker.configure"),
+    method<TrackerReset>("tracker.reset"),
+    method<TrackerTouch>("tracker.touch"),
+    method<TrackerAlign>("tracker.align"),
+    method<TrackerTip>("tracker.tip"),
+    method<TrackerBoresight>("tracker.boresight"),
     method<StreamSubscribe>("stream.subscribe"),
     method<StreamUnsubscribe>("stream.unsubscribe"),
     method<StreamAck>("stream.ack"),
@@ -83,10 +95,7 @@ constexpr std::array kMethods{
 };
 static_assert(kMethods.size() == std::variant_size_v<Params>);
 
-constexpr const char* kReserved[] = {
-    "scene.remove", "camera.set",      "camera.get",        "camera.list",   "camera.remove",
-    "tracker.grab", "tracker.release", "tracker.configure", "tracker.align", "tracker.reset",
-};
+constexpr const char* kReserved[] = {"scene.remove"};
 
 bool ends_with_any(std::string_view name, std::initializer_list<std::string_view> endings) {
   return std::any_of(endings.begin(), endings.end(), [&](std::string_view ending) { return name.ends_with(ending); });

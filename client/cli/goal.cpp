@@ -10,11 +10,6 @@ std::string show(const Attachment& at) {
   return at.segment + format(" [%g %g %g]", at.point->x, at.point->y, at.point->z);
 }
 
-std::string show(const GoalBase& base) {
-  if (base.kind == GoalBase::Kind::world) return "";
-  return " from " + (base.kind == GoalBase::Kind::sensor ? base.sensor : base.figure + ' ' + base.segment);
-}
-
 }  // namespace
 
 int list_goals(const Session& session) {
@@ -27,7 +22,7 @@ int list_goals(const Session& session) {
       if (takes_hold(kind)) line += " at " + show(goal.at);
       if (kind != GoalKind::position) line += std::string("  ") + name_of(kind);
       if (const Vec3* p = position_of(goal.payload)) line += format("  [%g %g %g] m", p->x, p->y, p->z);
-      line += show(goal.relative_to);
+      line += show_base(goal.relative_to);
       line += format("  weight %g", goal.weight.value);
       if (goal.weight.orientation) line += format(" and %g", *goal.weight.orientation);
       if (goal.priority != 0) line += format("  priority %d", goal.priority);
@@ -39,18 +34,12 @@ int list_goals(const Session& session) {
   });
 }
 
-namespace {
-void show_set(const proto::EditResult& result) {
-  print_line(format("%s is set (revision %llu)", result.id.c_str(), static_cast<unsigned long long>(result.revision)));
-}
-}  // namespace
-
 int set_goal(const Session& session, const proto::GoalSet& goal) {
-  return request<proto::EditResult>(session, goal, show_set);
+  return request<proto::EditResult>(session, goal, print_set);
 }
 
 int set_goal(const Session& session, const std::string& params) {
-  return call<proto::EditResult>(session, "goal.set", params, show_set);
+  return call<proto::EditResult>(session, "goal.set", params, print_set);
 }
 
 int remove_goal(const Session& session, const std::string& id) {

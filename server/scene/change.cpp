@@ -27,6 +27,9 @@ std::size_t bytes_of(const SceneObject& object) {
 std::size_t bytes_of(const SceneBinding& binding) {
   return sizeof binding + binding.binding.user.size() + binding.binding.label.size();
 }
+std::size_t bytes_of(const SceneCamera& camera) {
+  return sizeof camera + camera.camera.user.size() + camera.camera.label.size();
+}
 
 template <class Entity>
 std::size_t bytes_of(const std::map<std::string, ChangedEntity<Entity>>& part) {
@@ -59,7 +62,7 @@ void take_in(std::map<std::string, ChangedEntity<Entity>>& first,
 }  // namespace
 
 bool Change::empty() const {
-  return figures.empty() && objects.empty() && goals.empty() && bindings.empty() && poses.empty();
+  return figures.empty() && objects.empty() && goals.empty() && bindings.empty() && cameras.empty() && poses.empty();
 }
 
 std::vector<std::string> Change::entities() const {
@@ -68,6 +71,7 @@ std::vector<std::string> Change::entities() const {
   name(objects, "/objects/", all);
   name(goals, "/goals/", all);
   name(bindings, "/bindings/", all);
+  name(cameras, "/cameras/", all);
   for (const auto& [figure, pose] : poses) {
     if (pose.asked) all.push_back("/figures/" + figure + "/q");
   }
@@ -75,14 +79,15 @@ std::vector<std::string> Change::entities() const {
 }
 
 std::size_t Change::bytes() const {
-  std::size_t bytes = bytes_of(figures) + bytes_of(objects) + bytes_of(goals) + bytes_of(bindings);
+  std::size_t bytes = bytes_of(figures) + bytes_of(objects) + bytes_of(goals) + bytes_of(bindings) + bytes_of(cameras);
   for (const auto& [figure, pose] : poses) bytes += 128 + pose.q.size() * sizeof(double);
   return bytes;
 }
 
 bool Change::join(const Change& next, Revision began) {
   if (!joins(figures, next.figures, began) || !joins(objects, next.objects, began) ||
-      !joins(goals, next.goals, began) || !joins(bindings, next.bindings, began))
+      !joins(goals, next.goals, began) || !joins(bindings, next.bindings, began) ||
+      !joins(cameras, next.cameras, began))
     return false;
   const auto between = [this](const auto& entry) {
     const auto before = poses.find(entry.first);
@@ -95,6 +100,7 @@ bool Change::join(const Change& next, Revision began) {
   take_in(objects, next.objects);
   take_in(goals, next.goals);
   take_in(bindings, next.bindings);
+  take_in(cameras, next.cameras);
   for (const auto& entry : next.poses) {
     // Another has moved the figure between: its pose will be solved anew, from where it then stands.
     if (between(entry)) {

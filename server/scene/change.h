@@ -32,6 +32,7 @@ struct Change {
   std::map<std::string, ChangedEntity<SceneObject>> objects;
   std::map<std::string, ChangedEntity<SceneGoal>> goals;
   std::map<std::string, ChangedEntity<SceneBinding>> bindings;
+  std::map<std::string, ChangedEntity<SceneCamera>> cameras;
   std::map<std::string, ChangedPose> poses;
 
   bool empty() const;
