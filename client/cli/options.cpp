@@ -5,21 +5,20 @@
 #include <memory>
 
 #include "client/cli/completion.h"
+#include "client/cli/options_parts.h"
 
 namespace posed::cli {
 namespace {
-
-// A subcommand's callback only notes what to do; it is done when the daemon is there.
-using Run = std::function<int(const Session&)>;
 
 void add_watch(CLI::App& app, Run& run) {
   static const std::map<std::string, proto::Stream> kNames{{"pose", proto::Stream::pose},
                                                            {"tracker", proto::Stream::tracker},
                                                            {"stats", proto::Stream::stats},
-                                                           {"scene", proto::Stream::scene}};
+                                                           {"scene", proto::Stream::scene},
+                                                           {"camera", proto::Stream::camera}};
   auto watch = std::make_shared<Watch>();
   auto* command = app.add_subcommand("watch", "follow a stream");
-  command->add_option("stream", watch->stream, "pose, tracker, stats or scene")
+  command->add_option("stream", watch->stream, "pose, tracker, stats, scene or camera")
       ->transform(CLI::CheckedTransformer(kNames, CLI::ignore_case).description(""))
       ->type_name("STREAM");
   command->add_option("--rate", watch->rate_hz, "frames a second at most")->check(CLI::PositiveNumber)->type_name("HZ");
@@ -116,12 +115,6 @@ void add_solve(CLI::App& app, Run& run) {
       [&run, solve] { run = [solve](const Session& s) { return run_solve(s, solve->file, solve->batch); }; });
 }
 
-void add_tracker(CLI::App& app, Run& run) {
-  auto* tracker = app.add_subcommand("tracker", "the trackers and how they are");
-  tracker->callback([&run] { run = list_trackers; });
-  tracker->add_subcommand("list", "all trackers (the default)");
-}
-
 void add_scene(CLI::App& app, Run& run) {
   auto* scene = app.add_subcommand("scene", "list, begin, save and open scenes");
   scene->require_subcommand(1);
@@ -148,6 +141,17 @@ void add_call(CLI::App& app, Run& run) {
   command->add_option("params", call->params, "a JSON object; - reads it from standard input");
   command->callback(
       [&run, call] { run = [call](const Session& s) { return run_call(s, call->method, call->params); }; });
+}
+
+void add_doctor(CLI::App& app, Options& options) {
+  auto root = std::make_shared<std::string>("/");
+  auto* doctor = app.add_subcommand("doctor", "what is wrong with trackers, permissions, ports and versions");
+  doctor->add_option("--root", *root, "")->group("");
+  doctor->callback([&options, root] {
+    options.run_alone = [host = options.host, identity = options.identity, root] {
+      return run_doctor(host, identity, *root);
+    };
+  });
 }
 
 void add_alone(CLI::App& app, std::function<int()>& run) {
@@ -199,8 +203,10 @@ std::variant<Options, int> parse_options(int argc, const char* const* argv) {
   add_pose(app, options.run);
   add_solve(app, options.run);
   add_tracker(app, options.run);
+  add_camera(app, options.run);
   add_scene(app, options.run);
   add_call(app, options.run);
+  add_doctor(app, options);
   add_alone(app, options.run_alone);
   try {
     app.parse(argc, argv);
