@@ -92,7 +92,7 @@ TEST(DecodeParams, WordsThatAreNotKnown) {
   const BadRequest bad = refused(call("stream.subscribe", R"({"stream":"poses"})"));
   EXPECT_EQ(bad.error.code, "invalid_params");
   EXPECT_EQ(bad.error.path, "/params/stream");
-  EXPECT_EQ(bad.error.hint, "one of: pose tracker scene stats");
+  EXPECT_EQ(bad.error.hint, "one of: pose tracker scene stats camera");
   expect_error(call("binding.set", R"({"mode":"both"})"), "invalid_params", "/params/mode");
   expect_error(call("binding.set", R"({"axes":["x","w"]})"), "invalid_params", "/params/axes");
   expect_error(call("pose.reset", R"({"to":"sitting"})"), "invalid_params", "/params/to");
