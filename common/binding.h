@@ -1,42 +1,68 @@
-// Bindings as documents of the scene: a sensor that moves a goal or an object. Plain values.
+// Bindings as documents of the scene: a sensor that moves a goal, an object, a camera or a joint. Plain values.
 #pragma once
 
 #include <optional>
 #include <string>
 
+#include "common/math.h"
 #include "common/patched.h"
 
 namespace posed {
 
+// Of the world: along, and about.
 struct Axes {
-  bool x = true, y = true, z = true;
-  bool rotation = false;  // rx, ry and rz, which go together
+  bool x = false, y = false, z = false, rx = false, ry = false, rz = false;
+  bool moves() const { return x || y || z; }
+  bool turns() const { return rx || ry || rz; }
+  bool operator==(const Axes&) const = default;
+};
+inline constexpr Axes kMoves{true, true, true, false, false, false};
+inline constexpr Axes kTurns{false, false, false, true, true, true};
+inline constexpr Axes kAllAxes{true, true, true, true, true, true};
+
+// One of goal, object, camera and joint is named.
+struct BindingTarget {
+  std::string goal, object, camera;
+  std::string joint, figure;  // figure left out: the only one, else "body"
+  bool operator==(const BindingTarget&) const = default;
 };
 
-// One of the two is named.
-struct BindingTarget {
-  std::string goal, object;
-  bool operator==(const BindingTarget&) const = default;
+// The target moves only while this button of the sensor is held.
+struct Clutch {
+  int button = 0;  // 0 is the first
+};
+
+// The target as the sensor sees it: how the one is fixed to the other.
+struct SensorOffset {
+  Vec3 position{0.0, 0.0, 0.0};
+  Quat rotation{1.0, 0.0, 0.0, 0.0};  // sensor_from_target
+};
+
+// Casiez, Roussel and Vogel, "1 Euro Filter", CHI 2012: a low pass whose cutoff grows with the speed.
+struct OneEuro {
+  double min_cutoff_hz = 1.0;
+  double beta = 0.0;  // Hz for each m/s, or rad/s
+  double d_cutoff_hz = 1.0;
+};
+struct BindingFilter {
+  std::optional<OneEuro> one_euro;
+  double predict_ms = 0.0;
 };
 
 struct Binding {
   enum class Mode { absolute, relative };
   std::string id;
-  std::string sensor;  // "simulated:1"
-  BindingTarget to;    // what it moves
-  Axes axes;           // those of the target that follow the sensor
+  std::string sensor;        // "simulated:1"
+  BindingTarget to;          // what it moves
+  std::optional<Axes> axes;  // those of the target that follow the sensor; in a scene always said
   Mode mode = Mode::absolute;
+  std::optional<Clutch> clutch;
   double scale = 1.0;  // of positions
+  std::optional<SensorOffset> offset;
+  std::optional<BindingFilter> filter;
   std::string label;
   std::string user;
 };
-
-// Goals follow with their position, objects with their rotation, too.
-inline Axes default_axes(const BindingTarget& to) {
-  Axes axes;
-  axes.rotation = !to.object.empty();
-  return axes;
-}
 
 struct BindingEdit {
   std::string id;  // empty: SENSOR with ':' as '.'
@@ -44,7 +70,10 @@ struct BindingEdit {
   std::optional<BindingTarget> to;
   Patched<Axes> axes;
   Patched<Binding::Mode> mode;
+  Patched<Clutch> clutch;
   Patched<double> scale;
+  Patched<SensorOffset> offset;
+  Patched<BindingFilter> filter;
   Patched<std::string> label;
   Patched<std::string> user;
 };

@@ -28,6 +28,7 @@ struct Sample {
 
 struct Frame {
   Nanoseconds t_ns = 0;         // daemon clock, where the bytes arrived
+  Nanoseconds sample_t_ns = 0;  // daemon clock, when it was measured as the device counts; 0: not known
   std::string device;           // "liberty", "simulated"
   std::vector<Sample> samples;  // ascending stations, each at most once
 };

@@ -87,6 +87,14 @@ const Vec3* position_of(const GoalPayload& payload) {
 Vec3* position_of(GoalPayload& payload) {
   return const_cast<Vec3*>(position_of(std::as_const(payload)));
 }
+const Quat* rotation_of(const GoalPayload& payload) {
+  if (const auto* o = std::get_if<OrientationTarget>(&payload)) return &o->rotation;
+  if (const auto* p = std::get_if<PoseTarget>(&payload)) return &p->rotation;
+  return nullptr;
+}
+Quat* rotation_of(GoalPayload& payload) {
+  return const_cast<Quat*>(rotation_of(std::as_const(payload)));
+}
 
 Result<GoalPayload> payload_after(const GoalPayload* before, const PayloadEdit& e) {
   const std::vector<GoalKind> kinds = named(e);

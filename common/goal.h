@@ -96,13 +96,16 @@ inline constexpr bool has_frame(GoalKind kind) {
 // Of position and pose goals; else null.
 const Vec3* position_of(const GoalPayload& payload);
 Vec3* position_of(GoalPayload& payload);
+// Of orientation and pose goals; else null.
+const Quat* rotation_of(const GoalPayload& payload);
+Quat* rotation_of(GoalPayload& payload);
 
 // ---- the goal ----------------------------------------------------------------------------------------------------
 
-// The frame that the payload is in.
+// The frame that a goal's payload is in, or a camera.
 struct GoalBase {
   enum class Kind { world, segment, sensor, object } kind = Kind::world;
-  std::string figure, segment;  // figure empty: the goal's own
+  std::string figure, segment;  // figure empty: a goal's own
   std::string sensor;           // "liberty:1"
   std::string object{};
   bool operator==(const GoalBase&) const = default;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/binding.h"
+#include "common/camera.h"
 #include "common/figure.h"
 #include "common/goal.h"
 #include "common/object.h"
@@ -38,6 +39,7 @@ struct SceneDocument {
   std::map<std::string, Goal> goals;
   std::map<std::string, Object> objects;
   std::map<std::string, Binding> bindings;
+  std::map<std::string, Camera> cameras;
 };
 
 }  // namespace posed

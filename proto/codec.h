@@ -34,6 +34,7 @@ std::string join_batch(const std::vector<std::string>& replies);
 // shortest form.
 std::string encode_pose_frame(std::uint64_t seq, const PoseData& data, const PoseFields& fields);
 std::string encode_tracker_frame(std::uint64_t seq, const TrackerData& data);
+std::string encode_camera_frame(std::uint64_t seq, const CameraData& data);
 std::string encode_stats_frame(std::uint64_t seq, const StatsData& data);
 std::string encode_scene_snapshot(std::uint64_t seq, std::uint64_t revision, std::string_view document);
 std::string encode_scene_patch(std::uint64_t seq, std::uint64_t from_revision, std::uint64_t revision,
@@ -55,6 +56,10 @@ std::string encode_entity(const FigureEntry& figure);
 std::string encode_entity(const Goal& goal);
 std::string encode_entity(const Object& object);
 std::string encode_entity(const Binding& binding);
+std::string encode_entity(const Camera& camera);
+// A calibration as the store keeps it.
+std::string encode_calibration(const Calibration& calibration);
+Result<Calibration> decode_calibration(std::string_view text);
 std::string encode_q(const std::vector<double>& q);
 Result<FigureDocument> decode_figure(std::string_view text);
 // The RFC 6902 patch that leads from one JSON text to another.

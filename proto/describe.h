@@ -2,6 +2,8 @@
 // Writer.
 #pragma once
 
+#include "proto/describe_bindings.h"
+#include "proto/describe_trackers.h"
 #include "proto/read.h"
 #include "proto/write.h"
 
@@ -166,35 +168,6 @@ void describe(V& v, Object& m) {
 }
 
 template <class V>
-void describe(V& v, BindingTarget& m) {
-  v.reserved("joint");
-  v.reserved("camera");
-  if (v.optional("object", m.object) && !m.object.empty()) {
-    if (v.has("goal")) v.fail("invalid_params", "a binding moves one thing", "leave goal or object out");
-    return;
-  }
-  v.required("goal", m.goal);
-}
-
-template <class V>
-void describe_binding(V& v, Binding& m) {
-  v.required("sensor", m.sensor);
-  v.required("to", m.to);
-  if (V::kReads) m.axes = default_axes(m.to);
-  v.optional("axes", m.axes);
-  v.optional("mode", m.mode);
-  v.optional("scale", m.scale);
-  v.reserved("clutch");
-  v.reserved("filter");
-  v.optional("label", m.label);
-  v.verbatim("user", m.user);
-}
-template <class V>
-void describe(V& v, Binding& m) {
-  describe_binding(v, m);
-}
-
-template <class V>
 void describe(V& v, Pin& m) {
   v.required("hold", m.hold);
   v.optional("position", m.position);
@@ -226,8 +199,10 @@ void describe(V& v, SceneDocument& m) {
   else
     v.required("objects", m.objects);
   v.required("bindings", m.bindings);
-  if constexpr (!V::kReads) v.constant("cameras", Json::object());
-  v.reserved("cameras", "{}");
+  if constexpr (V::kReads)
+    v.optional("cameras", m.cameras);
+  else
+    v.required("cameras", m.cameras);
 }
 
 // ---- requests ----
@@ -246,8 +221,8 @@ void describe(V& v, SessionHello& m) {
 
 // What has no fields.
 template <class V, class M>
-requires OneOf<M, SessionPing, SessionStatus, SessionList, FigureList, GoalList, ObjectList, BindingList, SolverGet,
-               SceneGet, SceneList, TrackerList, EditRedo, EmptyResult>
+requires OneOf<M, SessionPing, SessionStatus, SessionList, FigureList, GoalList, ObjectList, BindingList, CameraList,
+               SolverGet, SceneGet, SceneList, TrackerList, EditRedo, EmptyResult>
 void describe(V&, M&) {}
 
 template <class V>
@@ -261,7 +236,8 @@ void describe(V& v, FigureSet& m) {
 }
 
 template <class V, class M>
-requires OneOf<M, FigureGet, FigureRemove, GoalGet, GoalRemove, ObjectGet, ObjectRemove, BindingGet, BindingRemove>
+requires OneOf<M, FigureGet, FigureRemove, GoalGet, GoalRemove, ObjectGet, ObjectRemove, BindingGet, BindingRemove,
+               CameraGet, CameraRemove>
 void describe(V& v, M& m) {
   v.required("id", m.id);
 }
@@ -304,18 +280,21 @@ void describe(V& v, ObjectSet& m) {
   v.verbatim("user", m.edit.user);
 }
 
-template <class V>
-void describe(V& v, BindingSet& m) {
-  v.optional("id", m.edit.id);
-  v.optional("sensor", m.edit.sensor);
-  v.optional("to", m.edit.to);
-  v.optional("axes", m.edit.axes);
-  v.optional("mode", m.edit.mode);
-  v.optional("scale", m.edit.scale);
-  v.reserved("clutch");
-  v.reserved("filter");
-  v.optional("label", m.edit.label);
-  v.verbatim("user", m.edit.user);
+// true, or a weight; false lets go, as null does.
+inline void read(ReadContext& c, const Json& j, JointHold& out) {
+  out = {};
+  if (j.is_number()) return read(c, j, out.weight.emplace());
+  if (j != true)
+    c.fail("wrong_type", "true, a weight or null was expected", "true holds before all goals; null lets go");
+}
+inline Json write(const JointHold& hold) {
+  return hold.weight ? Json(*hold.weight) : Json(true);
+}
+inline void read(ReadContext& c, const Json& j, Patched<JointHold>& out) {
+  if (j.is_null() || j == false) return void(out = Patched<JointHold>::reset());
+  JointHold hold;
+  read(c, j, hold);
+  out = hold;
 }
 
 template <class V>
@@ -326,7 +305,7 @@ void describe(V& v, JointSet& m) {
   v.optional("halfplane", m.halfplane);
   v.optional("deviation", m.deviation);
   v.optional("twist", m.twist);
-  v.reserved("hold");
+  v.optional("hold", m.hold);
 }
 
 template <class V>

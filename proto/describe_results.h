@@ -194,6 +194,17 @@ void describe(V& v, BindingListResult& m) {
 }
 
 template <class V>
+void describe(V& v, CameraResult& m) {
+  v.required("id", m.camera.id);
+  describe_camera(v, m.camera);
+  v.required("entity_revision", m.entity_revision);
+}
+template <class V>
+void describe(V& v, CameraListResult& m) {
+  v.required("cameras", m.cameras);
+}
+
+template <class V>
 void describe(V& v, JointResult& m) {
   v.required("figure", m.figure);
   v.required("joint", m.joint);
@@ -202,6 +213,7 @@ void describe(V& v, JointResult& m) {
   v.optional("halfplane", m.halfplane);
   v.optional("deviation", m.deviation);
   v.optional("twist", m.twist);
+  v.optional("hold", m.hold);
 }
 
 template <class V>
@@ -302,21 +314,6 @@ void describe(V& v, SceneListResult& m) {
 }
 
 template <class V>
-void describe(V& v, TrackerEntry& m) {
-  v.required("tracker", m.tracker);
-  v.required("kind", m.kind);
-  v.required("state", m.state);
-  v.required("message", m.message);
-  v.required("rate_hz", m.rate_hz);
-  v.required("frames", m.frames);
-  v.required("bad_bytes", m.bad_bytes);
-  v.required("sensors", m.sensors);
-}
-template <class V>
-void describe(V& v, TrackerListResult& m) {
-  v.required("trackers", m.trackers);
-}
-template <class V>
 void describe(V& v, SubscribeResult& m) {
   v.required("stream", m.stream);
 }
@@ -332,8 +329,21 @@ void describe(V& v, SensorData& m) {
   v.required("device_t_ns", m.device_t_ns);
 }
 template <class V>
+void describe(V& v, CameraFrame& m) {
+  v.required("camera", m.camera);
+  v.required("position", m.world_from_camera.position);
+  v.required("quat_xyzw", m.world_from_camera.rotation);
+  v.required("fov_y", m.fov_y);
+}
+template <class V>
+void describe(V& v, CameraData& m) {
+  v.required("t_ns", m.t_ns);
+  v.required("cameras", m.cameras);
+}
+template <class V>
 void describe(V& v, TrackerData& m) {
   v.required("t_ns", m.t_ns);
+  if (V::kReads || m.sample_t_ns != 0) v.optional("sample_t_ns", m.sample_t_ns);
   v.required("device", m.device);
   v.required("sensors", m.sensors);
 }
@@ -350,6 +360,7 @@ void describe(V& v, StatsData& m) {
   v.required("frame_age_p99_us", m.frame_age_p99_us);
   v.required("acked_age_us", m.acked_age_us);
   v.required("acked_age_p99_us", m.acked_age_p99_us);
+  v.optional("trackers", m.trackers);
 }
 
 }  // namespace posed::proto

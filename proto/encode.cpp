@@ -111,6 +111,15 @@ std::string encode_entity(const Object& object) {
 std::string encode_entity(const Binding& binding) {
   return dump(write(binding));
 }
+std::string encode_entity(const Camera& camera) {
+  return dump(write(camera));
+}
+std::string encode_calibration(const Calibration& calibration) {
+  return dump(write(calibration));
+}
+Result<Calibration> decode_calibration(std::string_view text) {
+  return decode_document<Calibration>(text, "bad_calibration");
+}
 std::string encode_q(const std::vector<double>& q) {
   return dump(write(q));
 }
@@ -122,6 +131,7 @@ Result<SceneDocument> decode_scene(std::string_view text) {
   for (auto& [id, goal] : scene->goals) goal.id = id;
   for (auto& [id, object] : scene->objects) object.id = id;
   for (auto& [id, binding] : scene->bindings) binding.id = id;
+  for (auto& [id, camera] : scene->cameras) camera.id = id;
   return scene;
 }
 
@@ -171,6 +181,8 @@ POSED_RESULT(ObjectResult)
 POSED_RESULT(ObjectListResult)
 POSED_RESULT(BindingResult)
 POSED_RESULT(BindingListResult)
+POSED_RESULT(CameraResult)
+POSED_RESULT(CameraListResult)
 POSED_RESULT(JointResult)
 POSED_RESULT(PoseResult)
 POSED_RESULT(SolverResult)
@@ -179,6 +191,9 @@ POSED_RESULT(SolveBatchResult)
 POSED_RESULT(SceneResult)
 POSED_RESULT(SceneListResult)
 POSED_RESULT(TrackerListResult)
+POSED_RESULT(TrackerGrabResult)
+POSED_RESULT(TouchResult)
+POSED_RESULT(CalibrationResult)
 POSED_RESULT(SubscribeResult)
 #undef POSED_RESULT
 

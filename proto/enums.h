@@ -57,7 +57,7 @@ struct EnumNames<SolveStatus> {
 };
 template <>
 struct EnumNames<Stream> {
-  static constexpr std::array names{"pose", "tracker", "scene", "stats"};
+  static constexpr std::array names{"pose", "tracker", "scene", "stats", "camera"};
 };
 
 template <>

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "common/calibration.h"
 #include "common/goal.h"
 #include "common/pose.h"
 #include "common/result.h"
@@ -107,10 +108,26 @@ struct BindingRemove {
   std::string id;
 };
 
+struct CameraSet {
+  CameraEdit edit;
+};
+struct CameraGet {
+  std::string id;
+};
+struct CameraList {};
+struct CameraRemove {
+  std::string id;
+};
+
+// A joint that is kept where it is: before all goals, or as a posture goal of this weight.
+struct JointHold {
+  std::optional<double> weight;
+};
 struct JointSet {
   std::string figure, joint;
   std::vector<double> value;  // the joint's share of q; empty: halfplane, deviation, twist
   std::optional<double> halfplane, deviation, twist;
+  Patched<JointHold> hold;
 };
 struct JointGet {
   std::string figure, joint;
@@ -199,9 +216,63 @@ struct SceneRemove {
 };
 
 struct TrackerList {};
+struct TrackerGrab {
+  std::string tracker;
+  bool force = false;
+};
+struct TrackerRelease {
+  std::string tracker;
+  bool force = false;
+};
 
-enum class Stream { pose, tracker, scene, stats };
-inline constexpr int kStreams = 4;
+// The device's own filter of positions or of attitudes: off, or its four numbers.
+struct DeviceFilter {
+  bool on = false;
+  double sensitivity = 0.0, low = 0.0, high = 0.0, most = 0.0;
+};
+struct TrackerConfigure {
+  std::string tracker;
+  bool force = false;
+  Patched<std::string> calibration;  // one that is kept; null: none
+  Patched<double> rate_hz;
+  Patched<std::vector<std::string>> sensors;  // those that are active
+  std::map<std::string, Vec3> hemisphere;  // by sensor: towards the half of the field that it is in; zero: it follows
+  Patched<DeviceFilter> position_filter, attitude_filter;
+};
+struct TrackerReset {
+  std::string tracker;
+  bool force = false;
+};
+
+inline constexpr int kMaxTouchMs = 60'000;
+inline constexpr std::size_t kMaxAlignPoints = 1000;
+// Where a sensor's tip is, measured for a while.
+struct TrackerTouch {
+  std::string sensor;
+  bool force = false;
+  int for_ms = 500;
+  std::optional<Vec3> point;  // of the world, to compare with
+};
+struct TrackerAlign {
+  std::string tracker, name;  // of the calibration; empty: the chosen one, else "default"
+  bool force = false;
+  std::vector<AlignedPoint> points;
+};
+struct TrackerTip {
+  std::string sensor, name;
+  bool force = false;
+  int for_ms = 5000;
+  std::optional<Vec3> offset;  // sensor's frame; none: by pivoting
+};
+struct TrackerBoresight {
+  std::string sensor, name;
+  bool force = false;
+  int for_ms = 500;
+  Quat rotation{1.0, 0.0, 0.0, 0.0};  // as which the present orientation is to be read, in the world
+};
+
+enum class Stream { pose, tracker, scene, stats, camera };
+inline constexpr int kStreams = 5;
 
 enum class Encoding { json, cbor };
 
@@ -241,10 +312,12 @@ struct EditHistory {
 using Params =
     std::variant<SessionHello, SessionPing, SessionStatus, SessionList, FigureSet, FigureGet, FigureList, FigureRemove,
                  FigurePin, GoalSet, GoalGet, GoalList, GoalRemove, GoalClear, GoalGrab, GoalRelease, ObjectSet,
-                 ObjectGet, ObjectList, ObjectRemove, BindingSet, BindingGet, BindingList, BindingRemove, JointSet,
-                 JointGet, PoseGet, PoseSet, PoseReset, PoseMirror, SolverGet, SolverSet, Solve, SolveBatch, SceneGet,
-                 SceneNew, SceneList, SceneSave, SceneOpen, SceneRemove, TrackerList, StreamSubscribe,
-                 StreamUnsubscribe, StreamAck, EditApply, EditUndo, EditRedo, EditHistory>;
+                 ObjectGet, ObjectList, ObjectRemove, BindingSet, BindingGet, BindingList, BindingRemove, CameraSet,
+                 CameraGet, CameraList, CameraRemove, JointSet, JointGet, PoseGet, PoseSet, PoseReset, PoseMirror,
+                 SolverGet, SolverSet, Solve, SolveBatch, SceneGet, SceneNew, SceneList, SceneSave, SceneOpen,
+                 SceneRemove, TrackerList, TrackerGrab, TrackerRelease, TrackerConfigure, TrackerReset, TrackerTouch,
+                 TrackerAlign, TrackerTip, TrackerBoresight, StreamSubscribe, StreamUnsubscribe, StreamAck, EditApply,
+                 EditUndo, EditRedo, EditHistory>;
 
 struct Edit {
   std::optional<std::uint64_t> if_revision;  // edits of one entity only
@@ -383,11 +456,19 @@ struct BindingResult {
 struct BindingListResult {
   std::vector<BindingResult> bindings;
 };
+struct CameraResult {
+  Camera camera;
+  std::uint64_t entity_revision = 0;
+};
+struct CameraListResult {
+  std::vector<CameraResult> cameras;
+};
 struct JointResult {
   std::string figure, joint;
   JointType type = JointType::ball;
   std::vector<double> value;
   std::optional<double> halfplane, deviation, twist;  // where the joint rotates
+  std::optional<JointHold> hold;
 };
 
 // A goal's report with the ids spelled out.
@@ -402,8 +483,9 @@ struct GoalFrame {
     double beyond_m = 0.0;
     std::string limit = {};  // a joint's name; its limit on this side
     Cause::Side side = Cause::Side::min;
-    std::string pin = {};     // a segment
-    std::string figure = {};  // whose limit or pin, where it is another than the goal's
+    std::string pin = {};      // a segment
+    std::string binding = {};  // that moves a joint
+    std::string figure = {};   // whose limit or pin, where it is another than the goal's
   };
   std::vector<Because> causes;
 };
@@ -461,6 +543,25 @@ struct TrackerEntry {
   double rate_hz = 0.0;
   std::uint64_t frames = 0, bad_bytes = 0;
   std::vector<std::string> sensors;
+  std::string held_by = {};
+  std::string calibration = {};                // the chosen one
+  std::vector<Calibration> calibrations = {};  // all that are kept of it
+};
+struct TrackerGrabResult {
+  std::string tracker;
+  int idle_ms = 0;
+};
+struct TouchResult {
+  std::string sensor;
+  int samples = 0;
+  Vec3 position{0.0, 0.0, 0.0};  // of the tip in the world, the mean
+  Quat rotation{1.0, 0.0, 0.0, 0.0};
+  Vec3 source{0.0, 0.0, 0.0};   // of the tip, as the tracker has it
+  double spread_m = 0.0;        // root mean square about the mean
+  std::optional<double> off_m;  // from the point that was to be touched
+};
+struct CalibrationResult {
+  Calibration calibration;
 };
 struct TrackerListResult {
   std::vector<TrackerEntry> trackers;
@@ -492,10 +593,30 @@ struct SensorData {
   std::uint32_t device_count = 0;
   Nanoseconds device_t_ns = 0;
 };
+struct CameraFrame {
+  std::string camera;
+  Transform world_from_camera;
+  double fov_y = kDefaultFovY;
+  bool operator==(const CameraFrame& o) const {
+    return camera == o.camera && world_from_camera.position == o.world_from_camera.position &&
+           world_from_camera.rotation == o.world_from_camera.rotation && fov_y == o.fov_y;
+  }
+};
+struct CameraData {
+  Nanoseconds t_ns = 0;
+  std::vector<CameraFrame> cameras;
+};
 struct TrackerData {
   Nanoseconds t_ns = 0;
+  Nanoseconds sample_t_ns = 0;  // 0: not known
   std::string device;
   std::vector<SensorData> sensors;
+};
+// Of the last second. Lag: how long after it was measured, as the device's count tells, a sample has come at most;
+// jitter: root mean square of how unevenly they came.
+struct TrackerStats {
+  std::string tracker;
+  double rate_hz = 0.0, jitter_us = 0.0, lag_us = 0.0;
 };
 struct StatsData {
   Nanoseconds t_ns = 0;
@@ -507,6 +628,7 @@ struct StatsData {
   // Of pose and tracker frames in the last second, from the sample's arrival until the kernel has taken the frame, and
   // until a viewer with credit has acknowledged it. 0: there were none.
   double frame_age_us = 0.0, frame_age_p99_us = 0.0, acked_age_us = 0.0, acked_age_p99_us = 0.0;
+  std::vector<TrackerStats> trackers = {};
 };
 
 }  // namespace posed::proto

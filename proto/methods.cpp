@@ -57,6 +57,10 @@ constexpr std::array kMethods{
     method<BindingGet>("binding.get"),
     method<BindingList>("binding.list"),
     method<BindingRemove>("binding.remove", kEdits),
+    method<CameraSet>("camera.set", kEdits),
+    method<CameraGet>("camera.get"),
+    method<CameraList>("camera.list"),
+    method<CameraRemove>("camera.remove", kEdits),
     method<JointSet>("joint.set", kEdits),
     method<JointGet>("joint.get"),
     method<PoseGet>("pose.get"),
@@ -74,6 +78,14 @@ constexpr std::array kMethods{
     method<SceneOpen>("scene.open", Edits::whole),
     method<SceneRemove>("scene.remove"),
     method<TrackerList>("tracker.list"),
+    method<TrackerGrab>("tracker.grab"),
+    method<TrackerRelease>("tracker.release"),
+    method<TrackerConfigure>("tracker.configure"),
+    method<TrackerReset>("tracker.reset"),
+    method<TrackerTouch>("tracker.touch"),
+    method<TrackerAlign>("tracker.align"),
+    method<TrackerTip>("tracker.tip"),
+    method<TrackerBoresight>("tracker.boresight"),
     method<StreamSubscribe>("stream.subscribe"),
     method<StreamUnsubscribe>("stream.unsubscribe"),
     method<StreamAck>("stream.ack"),
@@ -84,10 +96,6 @@ constexpr std::array kMethods{
 };
 static_assert(kMethods.size() == std::variant_size_v<Params>);
 
-constexpr const char* kReserved[] = {
-    "camera.set",      "camera.get",        "camera.list",   "camera.remove", "tracker.grab",
-    "tracker.release", "tracker.configure", "tracker.align", "tracker.reset",
-};
 
 bool ends_with_any(std::string_view name, std::initializer_list<std::string_view> endings) {
   return std::any_of(endings.begin(), endings.end(), [&](std::string_view ending) { return name.ends_with(ending); });
@@ -201,8 +209,7 @@ std::string nearest_method(std::string_view name) {
 }
 
 bool reserved_method(std::string_view name) {
-  return std::find(std::begin(kReserved), std::end(kReserved), name) != std::end(kReserved) ||
-         name.starts_with("key.") || name.starts_with("play.") || name.starts_with("take.");
+  return name.starts_with("key.") || name.starts_with("play.") || name.starts_with("take.");
 }
 
 }  // namespace posed::proto

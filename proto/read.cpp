@@ -169,13 +169,13 @@ void read(ReadContext& c, const Json& j, GoalBase& out) {
   constexpr const char* kHint =
       R"("world", {"figure":"body","segment":"head"}, {"object":"chair"} or {"sensor":"liberty:1"})";
   if (!j.is_object())
-    return c.fail("invalid_params", "a goal is relative to the world, a segment, an object or a sensor", kHint);
+    return c.fail("invalid_params", "it is relative to the world, a segment, an object or a sensor", kHint);
   Reader r(c, j);
   const bool object = r.optional("object", out.object);
   const bool figure = r.optional("figure", out.figure), segment = r.optional("segment", out.segment);
   const bool sensor = r.optional("sensor", out.sensor);
   out.kind = sensor ? GoalBase::Kind::sensor : object ? GoalBase::Kind::object : GoalBase::Kind::segment;
-  if (sensor + object + (figure || segment) > 1) r.fail("invalid_params", "a goal is relative to one thing", kHint);
+  if (sensor + object + (figure || segment) > 1) r.fail("invalid_params", "it is relative to one thing", kHint);
   if (!sensor && !object && !segment) r.fail_at("segment", "missing_field", "the field \"segment\" is missing", kHint);
   r.finish();
 }
@@ -213,12 +213,10 @@ void read(ReadContext& c, const Json& j, Axes& out) {
   for (const Json& item : j) {
     const auto* const found = std::find(std::begin(kNames), std::end(kNames), item);
     if (found == std::end(kNames))
-      return c.fail("invalid_params", "an axis is one of x y z rx ry rz", "name some of x y z");
+      return c.fail("invalid_params", "an axis is one of x y z rx ry rz", "as in [\"x\",\"y\",\"z\"]");
     named[found - kNames] = true;
   }
-  if (named[3] != named[4] || named[4] != named[5])
-    return c.fail("not_available", "a rotation is taken whole", "name all of rx ry rz, or none");
-  out = {named[0], named[1], named[2], named[3]};
+  out = {named[0], named[1], named[2], named[3], named[4], named[5]};
 }
 
 void read(ReadContext& c, const Json& j, Start& out) {
@@ -239,6 +237,7 @@ void read(ReadContext& c, const Json& j, GoalFrame::Because& out) {
   r.optional("limit", out.limit);
   r.optional("side", out.side);
   r.optional("pin", out.pin);
+  r.optional("binding", out.binding);
   r.optional("figure", out.figure);
   r.finish();
 }

@@ -103,6 +103,9 @@ void append_goal(std::string& out, const GoalFrame& goal) {
       append_id(out, cause.limit);
       out += ",\"side\":";
       append_id(out, word(cause.side));
+    } else if (!cause.binding.empty()) {
+      out += "{\"binding\":";
+      append_id(out, cause.binding);
     } else if (!cause.pin.empty()) {
       out += "{\"pin\":";
       append_id(out, cause.pin);
@@ -197,6 +200,7 @@ std::string encode_tracker_frame(std::uint64_t seq, const TrackerData& data) {
   std::string out = open_frame(Stream::tracker, seq);
   out += '{';
   append_field(out, "t_ns", data.t_ns);
+  if (data.sample_t_ns != 0) append_field(out, "sample_t_ns", data.sample_t_ns);
   out += ",\"device\":";
   append_id(out, data.device);
   out += ",\"sensors\":[";
@@ -223,6 +227,26 @@ std::string encode_tracker_frame(std::uint64_t seq, const TrackerData& data) {
   return out += "]}}}";
 }
 
+std::string encode_camera_frame(std::uint64_t seq, const CameraData& data) {
+  std::string out = open_frame(Stream::camera, seq);
+  out += '{';
+  append_field(out, "t_ns", data.t_ns);
+  out += ",\"cameras\":[";
+  for (std::size_t i = 0; i < data.cameras.size(); ++i) {
+    const CameraFrame& camera = data.cameras[i];
+    out += i > 0 ? ",{\"camera\":" : "{\"camera\":";
+    append_id(out, camera.camera);
+    out += ",\"position\":";
+    append_vec3(out, camera.world_from_camera.position);
+    out += ",\"quat_xyzw\":[";
+    append_quat(out, camera.world_from_camera.rotation);
+    out += "],\"fov_y\":";
+    append_fixed(out, camera.fov_y, kQuatDecimals);
+    out += '}';
+  }
+  return out += "]}}}";
+}
+
 std::string encode_stats_frame(std::uint64_t seq, const StatsData& data) {
   std::string out = open_frame(Stream::stats, seq);
   out += '{';
@@ -237,6 +261,19 @@ std::string encode_stats_frame(std::uint64_t seq, const StatsData& data) {
   append_field(out, "frame_age_p99_us", data.frame_age_p99_us);
   append_field(out, "acked_age_us", data.acked_age_us);
   append_field(out, "acked_age_p99_us", data.acked_age_p99_us);
+  if (!data.trackers.empty()) {
+    out += ",\"trackers\":[";
+    for (std::size_t i = 0; i < data.trackers.size(); ++i) {
+      const TrackerStats& tracker = data.trackers[i];
+      out += i > 0 ? ",{\"tracker\":" : "{\"tracker\":";
+      append_id(out, tracker.tracker);
+      append_field(out, "rate_hz", tracker.rate_hz);
+      append_field(out, "jitter_us", tracker.jitter_us);
+      append_field(out, "lag_us", tracker.lag_us);
+      out += '}';
+    }
+    out += ']';
+  }
   return out += "}}}";
 }
 

@@ -24,9 +24,9 @@ Json write(const Axes& a) {
   if (a.x) j.push_back("x");
   if (a.y) j.push_back("y");
   if (a.z) j.push_back("z");
-  if (a.rotation) {
-    for (const char* axis : {"rx", "ry", "rz"}) j.push_back(axis);
-  }
+  if (a.rx) j.push_back("rx");
+  if (a.ry) j.push_back("ry");
+  if (a.rz) j.push_back("rz");
   return j;
 }
 
@@ -84,6 +84,7 @@ Json write(const Start& s) {
 
 Json write(const GoalFrame::Because& b) {
   if (!b.goal.empty()) return Json{{"goal", b.goal}};
+  if (!b.binding.empty()) return Json{{"binding", b.binding}};
   if (b.pin.empty() && b.limit.empty()) return Json{{"beyond_m", b.beyond_m}};
   Json j = b.pin.empty() ? Json{{"limit", b.limit}, {"side", word(b.side)}} : Json{{"pin", b.pin}};
   if (!b.figure.empty()) j["figure"] = b.figure;

@@ -29,7 +29,7 @@ class Room:
 THREADS = {"thread", "mutex", "shared_mutex", "atomic", "condition_variable", "future", "semaphore", "stop_token", "pthread.h"}
 FILES = {"fstream", "filesystem", "iostream", "unistd.h", "fcntl.h"}
 CLOCK = {"chrono", "ctime", "time.h"}
-SERVER = {"solver", "scene", "tracker", "store", "net"}
+SERVER = {"solver", "scene", "calibration", "tracker", "store", "net"}
 
 # The table of ARCHITECTURE.md. GLM comes with common, to all.
 ROOMS = {
@@ -37,6 +37,7 @@ ROOMS = {
     "proto": Room("proto", {"common"}, {"nlohmann"}, THREADS | FILES),
     "solver": Room("server/solver", {"common"}, {"highway", "eigen"}, THREADS | FILES | CLOCK | {"common/log.h"}),
     "scene": Room("server/scene", {"common", "solver"}, set(), THREADS | FILES),
+    "calibration": Room("server/calibration", {"common"}, set(), THREADS | FILES | CLOCK),
     "tracker": Room("server/tracker", {"common"}, {"asio", "libusb"}, set()),
     "store": Room("server/store", {"common", "scene", "solver", "proto"}, {"sqlite"}, set()),
     "net": Room("server/net", {"common", "proto"}, {"asio", "openssl"}, set()),

@@ -33,6 +33,10 @@ int run_watch(const Session& session, const Watch& watch);
 // `once`: one picture, as text.
 int run_view(const Session& session, const view::Options& options, bool once);
 
+// What is wrong with the trackers of this machine, and with the daemon. Needs none. `root`: for tests, of all that it
+// looks at but the daemon.
+int run_doctor(const std::string& host, const client::Identity& identity, const std::string& root);
+
 // A line for the file of tokens on standard output; the token itself on standard error. Needs no daemon.
 int make_token(const std::string& role, const std::string& name);
 
@@ -76,6 +80,28 @@ int mirror_pose(const Session& session, const std::string& figure);
 int run_solve(const Session& session, const std::string& file, bool batch);
 
 int list_trackers(const Session& session);
+int grab_tracker(const Session& session, const proto::TrackerGrab& grab, double seconds);  // 0: until it is ended
+int release_tracker(const Session& session, const proto::TrackerRelease& release);
+int reset_tracker(const Session& session, const proto::TrackerReset& reset);
+int configure_tracker(const Session& session, const proto::TrackerConfigure& configure);
+// Asks for one point after the other on standard error, and reads a line of standard input for each.
+struct Align {
+  std::string sensor, name;
+  bool force = false;
+  int for_ms = 500;
+  std::vector<Vec3> points;  // of the world
+};
+int align_tracker(const Session& session, const Align& wish);
+int calibrate_tip(const Session& session, const proto::TrackerTip& tip);
+int check_tracker(const Session& session, proto::TrackerTouch touch);  // no point: the alignment's first
+int boresight_tracker(const Session& session, const proto::TrackerBoresight& boresight);
+int bind_sensor(const Session& session, const proto::BindingSet& binding);
+int unbind_sensor(const Session& session, std::string id);
+
+Quat looking(const Vec3& from, const Vec3& at);  // a camera's rotation; its Y stays level
+int list_cameras(const Session& session);
+int set_camera(const Session& session, const proto::CameraSet& camera);
+int remove_camera(const Session& session, const std::string& id);
 
 int list_scenes(const Session& session);
 int get_scene(const Session& session);

@@ -25,21 +25,6 @@ void print_object(const proto::ObjectResult& entry) {
   print_line(line);
 }
 
-void print_binding(const proto::BindingResult& entry) {
-  const Binding& b = entry.binding;
-  std::string line = b.id + "  " + b.sensor + " leads " +
-                     (b.to.goal.empty() ? "object " + b.to.object : "goal " + b.to.goal) + "  " +
-                     (b.mode == Binding::Mode::relative ? "relative" : "absolute");
-  std::string axes;
-  for (const auto& [on, name] :
-       {std::pair{b.axes.x, " x"}, {b.axes.y, " y"}, {b.axes.z, " z"}, {b.axes.rotation, " turns"}})
-    if (on) axes += name;
-  line += "  axes" + axes;
-  if (b.scale != 1.0) line += format("  scale %g", b.scale);
-  if (!b.label.empty()) line += "  " + b.label;
-  print_line(line);
-}
-
 void print_figure(const proto::FigureResult& figure) {
   const FigureEntry& entry = figure.entry;
   print_line(entry.id + "  " +
@@ -146,19 +131,6 @@ int get_object(const Session& session, const std::string& id) {
 
 int remove_object(const Session& session, const std::string& id) {
   return edit(session, proto::ObjectRemove{id}, id + " is removed");
-}
-
-int list_bindings(const Session& session) {
-  return list<proto::BindingListResult>(session, proto::BindingList{}, &proto::BindingListResult::bindings,
-                                        "no bindings", print_binding);
-}
-
-int get_binding(const Session& session, const std::string& id) {
-  return request<proto::BindingResult>(session, proto::BindingGet{id}, print_binding);
-}
-
-int remove_binding(const Session& session, const std::string& id) {
-  return edit(session, proto::BindingRemove{id}, id + " is removed");
 }
 
 }  // namespace posed::cli

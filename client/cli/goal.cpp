@@ -10,20 +10,6 @@ std::string show(const Attachment& at) {
   return at.segment + format(" [%g %g %g]", at.point->x, at.point->y, at.point->z);
 }
 
-std::string show(const GoalBase& base) {
-  switch (base.kind) {
-    case GoalBase::Kind::world:
-      return "";
-    case GoalBase::Kind::segment:
-      return " from " + base.figure + ' ' + base.segment;
-    case GoalBase::Kind::sensor:
-      return " from " + base.sensor;
-    case GoalBase::Kind::object:
-      return " from " + base.object;
-  }
-  return "";
-}
-
 void print_goal_entity(const proto::GoalResult& entry) {
   const Goal& goal = entry.goal;
   const GoalKind kind = kind_of(goal.payload);
@@ -31,7 +17,7 @@ void print_goal_entity(const proto::GoalResult& entry) {
   if (takes_hold(kind)) line += " at " + show(goal.at);
   if (kind != GoalKind::position) line += std::string("  ") + name_of(kind);
   if (const Vec3* p = position_of(goal.payload)) line += format("  [%g %g %g] m", p->x, p->y, p->z);
-  line += show(goal.relative_to);
+  line += show_base(goal.relative_to);
   line += format("  weight %g", goal.weight.value);
   if (goal.weight.orientation) line += format(" and %g", *goal.weight.orientation);
   if (goal.priority != 0) line += format("  priority %d", goal.priority);

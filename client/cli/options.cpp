@@ -108,7 +108,9 @@ std::variant<Options, int> parse_options(int argc, const char* const* argv) {
   add_scene(app, options.run);
   add_solve(app, options.run);
   add_tracker(app, options.run);
+  add_camera(app, options.run);
   add_call(app, options.run);
+  add_doctor(app, options);
   add_token(app, options.run_alone);
   add_completion(app, options.run_alone);
   add_help(app, options.run_alone);

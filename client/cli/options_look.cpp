@@ -19,13 +19,14 @@ void add_watch(CLI::App& app, Run& run) {
   static const std::map<std::string, proto::Stream> kNames{{"pose", proto::Stream::pose},
                                                            {"tracker", proto::Stream::tracker},
                                                            {"stats", proto::Stream::stats},
-                                                           {"scene", proto::Stream::scene}};
+                                                           {"scene", proto::Stream::scene},
+                                                           {"camera", proto::Stream::camera}};
   auto watch = std::make_shared<Watch>();
   auto* command = app.add_subcommand("watch", "follow a stream");
   example(command, "posectl watch pose --rate 10 --count 3");
   command->add_option("stream", watch->stream, "what to follow; default: pose")
       ->transform(CLI::CheckedTransformer(kNames, CLI::ignore_case).description(""))
-      ->type_name("pose|tracker|stats|scene");
+      ->type_name("pose|tracker|stats|scene|camera");
   command->add_option("--rate", watch->rate_hz, "frames a second at most")->check(CLI::PositiveNumber)->type_name("HZ");
   command->add_option("--count", watch->count, "stop after so many frames")->check(CLI::PositiveNumber)->type_name("N");
   command->add_option("--figure", watch->figure, "poses of this figure only")->type_name("ID");
@@ -82,11 +83,16 @@ void add_view(CLI::App& app, Run& run) {
   });
 }
 
-void add_tracker(CLI::App& app, Run& run) {
-  auto* tracker = app.add_subcommand("tracker", "the trackers and how they are");
-  tracker->callback([&run] { run = list_trackers; });
-  example(tracker, "posectl tracker");
-  example(tracker->add_subcommand("list", "all trackers (the default)"), "posectl tracker list");
+void add_doctor(CLI::App& app, Options& options) {
+  auto root = std::make_shared<std::string>("/");
+  auto* doctor = app.add_subcommand("doctor", "what is wrong with trackers, permissions, ports and versions");
+  example(doctor, "posectl doctor");
+  doctor->add_option("--root", *root, "")->group("");
+  doctor->callback([&options, root] {
+    options.run_alone = [host = options.host, identity = options.identity, root] {
+      return run_doctor(host, identity, *root);
+    };
+  });
 }
 
 void add_solve(CLI::App& app, Run& run) {

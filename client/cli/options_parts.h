@@ -7,6 +7,7 @@
 #include <string>
 
 #include "client/cli/commands.h"
+#include "client/cli/options.h"
 
 namespace posed::cli {
 
@@ -18,6 +19,7 @@ void add_watch(CLI::App& app, Run& run);
 void add_view(CLI::App& app, Run& run);
 void add_tracker(CLI::App& app, Run& run);
 void add_solve(CLI::App& app, Run& run);
+void add_camera(CLI::App& app, Run& run);
 void add_call(CLI::App& app, Run& run);
 
 void add_goal(CLI::App& app, Run& run);
@@ -31,6 +33,7 @@ void add_binding(CLI::App& app, Run& run);
 void add_scene(CLI::App& app, Run& run);
 void add_edit(CLI::App& app, Run& run);  // and undo, redo, history
 
+void add_doctor(CLI::App& app, Options& options);
 void add_token(CLI::App& app, std::function<int()>& run);
 void add_completion(CLI::App& app, std::function<int()>& run);
 

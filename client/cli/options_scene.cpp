@@ -124,12 +124,9 @@ void add_binding(CLI::App& app, Run& run) {
     proto::BindingSet request;
     request.edit.id = args->id;
     request.edit.sensor = args->sensor;
-    if (!args->goal.empty() || !args->object.empty()) request.edit.to = BindingTarget{args->goal, args->object};
-    if (!args->axes.empty()) {
-      if (has("rx") != has("ry") || has("ry") != has("rz"))
-        throw CLI::ValidationError("--axes", "rx, ry and rz go together");
-      request.edit.axes = Axes{has("x"), has("y"), has("z"), has("rx")};
-    }
+    if (!args->goal.empty() || !args->object.empty())
+      request.edit.to = BindingTarget{args->goal, args->object, "", "", ""};
+    if (!args->axes.empty()) request.edit.axes = Axes{has("x"), has("y"), has("z"), has("rx"), has("ry"), has("rz")};
     if (*mode) request.edit.mode = args->mode;
     if (*scale) request.edit.scale = args->scale;
     run = [request](const Session& s) { return set_entity(s, request); };

@@ -12,6 +12,7 @@ bool errors_as_json = false;
 std::string because(const proto::GoalFrame::Because& cause) {
   const std::string whose = cause.figure.empty() ? "" : " of " + cause.figure;
   if (!cause.goal.empty()) return "held by " + cause.goal;
+  if (!cause.binding.empty()) return "held by the binding " + cause.binding + whose;
   if (!cause.pin.empty()) return "held by the pin of " + cause.pin + whose;
   if (!cause.limit.empty()) return "at a limit of " + cause.limit + whose;
   return format("%.1f mm beyond reach", cause.beyond_m * 1e3);
@@ -62,6 +63,24 @@ int edit(const Session& session, const proto::Params& params, const std::string&
   return request<proto::RevisionResult>(session, params, [&](const proto::RevisionResult& result) {
     print_line(format("%s (revision %llu)", done.c_str(), static_cast<unsigned long long>(result.revision)));
   });
+}
+
+void print_set(const proto::EditResult& result) {
+  print_line(format("%s is set (revision %llu)", result.id.c_str(), static_cast<unsigned long long>(result.revision)));
+}
+
+std::string show_base(const GoalBase& base) {
+  switch (base.kind) {
+    case GoalBase::Kind::world:
+      return "";
+    case GoalBase::Kind::sensor:
+      return " from " + base.sensor;
+    case GoalBase::Kind::object:
+      return " from " + base.object;
+    case GoalBase::Kind::segment:
+      return " from " + base.figure + ' ' + base.segment;
+  }
+  return "";
 }
 
 }  // namespace posed::cli

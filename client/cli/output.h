@@ -18,6 +18,8 @@ Result<std::string> read_file(const std::string& file);
 
 void print_line(std::string_view text);
 void print_goal(const proto::GoalFrame& goal);  // with what holds it
+void print_set(const proto::EditResult& result);
+std::string show_base(const GoalBase& base);  // " from chair"; empty: the world
 
 // At most `size` of printf's output as a string.
 template <class... Args>

@@ -45,6 +45,17 @@ std::string show(const proto::TrackerData& data) {
   return line;
 }
 
+std::string show(const proto::CameraData& data) {
+  std::string line = format("t %.3f s", seconds(data.t_ns));
+  for (const proto::CameraFrame& camera : data.cameras) {
+    const Vec3& p = camera.world_from_camera.position;
+    const std::array<double, 4> q = xyzw(camera.world_from_camera.rotation);
+    line += format("  %s [%.4f %.4f %.4f] m [%.4f %.4f %.4f %.4f]", camera.camera.c_str(), p.x, p.y, p.z, q[0], q[1],
+                   q[2], q[3]);
+  }
+  return line;
+}
+
 std::string show(const proto::StatsData& data) {
   return format(
       "t %.3f s  frames %llu  solves %llu  solve %.1f us  sample to send %.1f us  connections %d  dropped %llu  age "
@@ -72,6 +83,8 @@ Result<std::string> show_line(const proto::Incoming& frame) {
       return read_and_show<proto::TrackerData>(frame.data);
     case Stream::stats:
       return read_and_show<proto::StatsData>(frame.data);
+    case Stream::camera:
+      return read_and_show<proto::CameraData>(frame.data);
     case Stream::scene:
       return frame.data;  // a document or a patch: its text says it best
   }
@@ -82,9 +95,9 @@ int run_watch(const Session& session, const Watch& watch) {
   using Form = Watch::Form;
   Form form = watch.form;
   if (session.json) form = Form::lines;
-  if (watch.stream == Stream::scene && form != Form::lines) {
+  if ((watch.stream == Stream::scene || watch.stream == Stream::camera) && form != Form::lines) {
     if (form != Form::automatic)
-      return fail({"bad_usage", "the scene is no table: watch it as lines", "", "leave out --csv and --table"});
+      return fail({"bad_usage", "this stream is no table: watch it as lines", "", "leave out --csv and --table"});
     form = Form::lines;
   }
   if (form == Form::automatic) form = isatty(STDOUT_FILENO) ? Form::table : Form::lines;

@@ -47,6 +47,7 @@ const char* columns(Stream stream) {
              "age_us,"
              "acked_age_p99_us\n";
     case Stream::scene:
+    case Stream::camera:
       break;
   }
   return "";

@@ -58,11 +58,54 @@ Result<Edited> apply(Scene& scene, const proto::BindingRemove& m, IfRevision if_
   return scene.remove_binding(m.id, if_revision);
 }
 
+Result<Edited> apply(Scene& scene, const proto::CameraSet& m, IfRevision if_revision) {
+  return scene.set_camera(m.edit, if_revision);
+}
+
+Result<Edited> apply(Scene& scene, const proto::CameraRemove& m, IfRevision if_revision) {
+  return scene.remove_camera(m.id, if_revision);
+}
+
+std::string hold_of(const std::string& figure, const std::string& joint) {
+  return figure + "." + joint + ".hold";
+}
+
 Result<int> joint_of(const BodyTree& tree, const std::string& name) {
   Result<int> joint = find_joint(tree, name);
   if (!joint) joint.error().path = "/joint";
   return joint;
 }
+
+namespace {
+
+constexpr int kHoldPriority = -100;  // before all goals but those that say the same
+
+// What holds a joint is a posture goal like others: undone, kept and listed as they are. One that is there takes the
+// joint's new value.
+Status hold_joint(Scene& scene, const std::string& figure, const proto::JointSet& m, const JointValue& value) {
+  const std::string id = hold_of(figure, m.joint);
+  const bool is_held = scene.goals().contains(id);
+  if (m.hold.is_reset()) {
+    if (!is_held) return Ok{};
+    const Result<Edited> removed = scene.remove_goal(id, {});
+    if (!removed) return below("/hold", removed.error());
+    return Ok{};
+  }
+  if (!m.hold.value() && !is_held) return Ok{};
+  GoalEdit edit;
+  edit.id = id;
+  edit.figure = figure;
+  edit.posture = PostureTarget{"", {{m.joint, value}}};
+  if (const proto::JointHold* hold = m.hold.value()) {
+    edit.weight = GoalWeight(hold->weight.value_or(GoalWeight().value));
+    edit.priority = hold->weight ? 0 : kHoldPriority;
+  }
+  const Result<Edited> set = scene.set_goal(edit, {});
+  if (!set) return Error{set.error().code, set.error().message, "/hold", set.error().hint};
+  return Ok{};
+}
+
+}  // namespace
 
 Result<Edited> apply(Scene& scene, const proto::JointSet& m, IfRevision if_revision) {
   const Result<const SceneFigure*> figure = scene.find_figure(m.figure);
@@ -70,14 +113,25 @@ Result<Edited> apply(Scene& scene, const proto::JointSet& m, IfRevision if_revis
   const BodyTree& tree = *(*figure)->tree;
   const Result<int> joint = joint_of(tree, m.joint);
   if (!joint) return joint.error();
-  Result<std::vector<double>> share = joint_share(tree, *joint, {m.value, m.halfplane, m.deviation, m.twist});
-  if (!share) {
-    if (share.error().path.empty()) share.error().path = "/value";
-    return share.error();
-  }
+  const std::string id = (*figure)->entry.id;
   std::vector<double> q = (*figure)->q;
-  std::copy(share->begin(), share->end(), q.begin() + tree.q_at(*joint));
-  return scene.set_q((*figure)->entry.id, std::move(q), if_revision);
+  const JointValue value{m.value, m.halfplane, m.deviation, m.twist};
+  if (!value.share.empty() || value.oriented() || !m.hold.named()) {
+    Result<std::vector<double>> share = joint_share(tree, *joint, value);
+    if (!share) {
+      if (share.error().path.empty()) share.error().path = "/value";
+      return share.error();
+    }
+    std::copy(share->begin(), share->end(), q.begin() + tree.q_at(*joint));
+  }
+  const auto first = q.begin() + tree.q_at(*joint);
+  const JointValue held{{first, first + q_size(tree.joint(*joint).type)}, {}, {}, {}};
+  Result<Edited> edited = scene.set_q(id, std::move(q), if_revision);
+  if (!edited) return edited;
+  const Status hold = hold_joint(scene, id, m, held);
+  if (!hold) return hold.error();
+  edited->revision = scene.revision();
+  return edited;
 }
 
 Result<Edited> apply(Scene& scene, const proto::PoseSet& m, IfRevision if_revision) {

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "common/names.h"
 #include "server/daemon/loop.h"
 #include "server/daemon/pipeline.h"
 #include "server/daemon/templates.h"
@@ -45,7 +46,18 @@ std::vector<std::unique_ptr<tracker::Tracker>> make_trackers(const Config& confi
   std::set<std::string> ids;
   tracker::TrackerOptions options;
   options.capture_folder = config.captures;
-  for (const std::string& spec : config.trackers) {
+  for (const std::string& said : config.trackers) {
+    // NAME=KIND:ARG; the second of a kind without a name is called KIND-2.
+    const std::size_t equals = said.find('=');
+    const bool named = equals != std::string::npos && equals < said.find(':');
+    const std::string spec = named ? said.substr(equals + 1) : said;
+    const std::string kind = spec.substr(0, spec.find(':'));
+    options.id = named ? said.substr(0, equals) : "";
+    if (named && !valid_id(options.id))
+      throw std::runtime_error("--tracker " + said + ": " + options.id +
+                               " is no name (letters, digits, '_', '.', '-')");
+    for (int n = 2; !named && kind != "replay" && ids.contains(options.id.empty() ? kind : options.id); ++n)
+      options.id = kind + "-" + std::to_string(n);
     auto made = tracker::make_tracker(
         spec, [&clock] { return clock.now(); }, options);
     if (!made) {
@@ -54,7 +66,7 @@ std::vector<std::unique_ptr<tracker::Tracker>> make_trackers(const Config& confi
                                (error.hint.empty() ? "" : " (" + error.hint + ")"));
     }
     if (!ids.insert((*made)->id()).second)
-      throw std::runtime_error("two trackers are called " + (*made)->id() + ": give --tracker " + spec + " once");
+      throw std::runtime_error("two trackers are called " + (*made)->id() + ": name one, as in --tracker left=" + spec);
     trackers.push_back(std::move(*made));
   }
   return trackers;
@@ -71,6 +83,12 @@ struct Daemon::Impl {
         pipeline(loop, server, store, Templates(config.scenes), clock),
         trackers(make_trackers(config, clock)) {
     pipeline.tokens = network.tokens;
+    pipeline.configure_device = [this](const std::string& id, const tracker::Settings& settings) -> Status {
+      for (auto& tracker : trackers) {
+        if (tracker->id() == id) return tracker->configure(settings);
+      }
+      return Ok{};
+    };
     pipeline.solving.deadline_ns = static_cast<Nanoseconds>(config.solve_deadline_ms * 1e6);
     pipeline.solving.method = pipeline.default_method = *find_method(config.solve_method);
     if (store.live().revision > 0 && !config.begin_anew) {
@@ -82,6 +100,9 @@ struct Daemon::Impl {
       }
       return;
     }
+    if (const Status loaded = pipeline.calibrations.load(store.live().parts); !loaded)
+      throw std::runtime_error("the calibrations in " + (config.data / "posed.db").string() + " cannot be read, at " +
+                               loaded.error().path + ": " + loaded.error().message);
     const Result<std::string> text = pipeline.templates.read(config.scene_template);
     if (!text)
       throw std::runtime_error("the scene " + config.scene_template + ": " + text.error().message +
@@ -107,7 +128,9 @@ struct Daemon::Impl {
   void start_tracker(tracker::Tracker& tracker) {
     pipeline.on_tracker(tracker.id(), tracker.kind(), {});
     tracker::Sink sink;
-    sink.frame = [this](Frame frame) { loop.post([this, frame = std::move(frame)] { pipeline.on_frame(frame); }); };
+    sink.frame = [this](Frame frame) {
+      loop.post([this, frame = std::move(frame)]() mutable { pipeline.on_frame(std::move(frame)); });
+    };
     sink.status = [this, id = tracker.id(), kind = tracker.kind()](tracker::Status status) {
       loop.post([this, id, kind, status = std::move(status)] { pipeline.on_tracker(id, kind, status); });
     };

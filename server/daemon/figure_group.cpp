@@ -48,13 +48,16 @@ std::size_t FigureGroup::index_of(const std::string& figure) const {
   return static_cast<std::size_t>(std::find(ids_.begin(), ids_.end(), figure) - ids_.begin());
 }
 
-void FigureGroup::set(std::vector<const SceneFigure*> figures, std::vector<const SceneGoal*> goals) {
+void FigureGroup::set(std::vector<const SceneFigure*> figures, std::vector<const SceneGoal*> goals,
+                      std::vector<const SceneBinding*> joints) {
   figures_ = std::move(figures);
   goals_ = std::move(goals);
+  joints_ = std::move(joints);
   ids_.clear();
   for (const SceneFigure* figure : figures_) ids_.push_back(figure->entry.id);
   pullers_.clear();
-  for (const SceneGoal* goal : goals_) pullers_.push_back({goal->goal.id, index_of(goal->goal.figure), false});
+  for (const SceneGoal* goal : goals_)
+    pullers_.push_back({goal->goal.id, index_of(goal->goal.figure), Puller::Kind::goal});
   method_ == Method::springs ? set_springs() : set_reach_tree();
 }
 
@@ -73,8 +76,14 @@ void FigureGroup::set_springs() {
     for (SpringGoal& pin : pins) {
       pin.figure = pin.base_figure = static_cast<int>(f);
       springs_.push_back(std::move(pin));
-      pullers_.push_back({(segment++)->first, f, true});
+      pullers_.push_back({(segment++)->first, f, Puller::Kind::pin});
     }
+  }
+  for (const SceneBinding* binding : joints_) {
+    const std::size_t f = index_of(binding->binding.to.figure);
+    SpringGoal& spring = springs_.emplace_back(joint_spring(*binding, *trees_[f]));
+    spring.figure = spring.base_figure = static_cast<int>(f);
+    pullers_.push_back({binding->binding.id, f, Puller::Kind::binding});
   }
 }
 
@@ -85,6 +94,7 @@ void FigureGroup::set_reach_tree() {
     reaches_.push_back({goal->at.segment, goal->at.point, goal->target(), goal->goal.weight.value, goal->goal.tolerance,
                         goal->goal.enabled});
   }
+  if (!joints_.empty()) reach_notes_.push_back("joints follow no sensors");
   if (!figures_[0]->entry.pins.empty()) reach_notes_.push_back("pins are not kept");
   if (std::any_of(goals_.begin(), goals_.end(), [](const SceneGoal* goal) { return !reach_tree_takes(*goal); }))
     reach_notes_.push_back("only position goals relative to the world pull; the others are off");
@@ -93,7 +103,8 @@ void FigureGroup::set_reach_tree() {
 }
 
 bool FigureGroup::live() const {
-  return std::any_of(goals_.begin(), goals_.end(), [](const SceneGoal* goal) { return goal->follows_sensors(); });
+  return std::any_of(goals_.begin(), goals_.end(), [](const SceneGoal* goal) { return goal->follows_sensors(); }) ||
+         std::any_of(joints_.begin(), joints_.end(), [](const SceneBinding* joint) { return joint->moves_joint; });
 }
 
 void FigureGroup::solve(const SolverOptions& options, const std::function<bool()>& should_stop) {
@@ -103,6 +114,8 @@ void FigureGroup::solve(const SolverOptions& options, const std::function<bool()
   }
   if (method_ == Method::springs) {
     for (std::size_t g = 0; g < goals_.size(); ++g) follow_sensors(*goals_[g], springs_[g]);
+    const std::size_t first = springs_.size() - joints_.size();
+    for (std::size_t j = 0; j < joints_.size(); ++j) follow_sensor(*joints_[j], springs_[first + j]);
     spring_solver_->solve(springs_, options.springs, should_stop, pose_);
     return;
   }
@@ -137,8 +150,8 @@ proto::GoalFrame::Because FigureGroup::because(const Cause& cause, std::size_t f
     because.limit = trees_[whose]->joint(cause.joint).name;
     because.side = cause.side;
     say_figure(whose);
-  } else if (const Puller& puller = pullers_[static_cast<std::size_t>(cause.goal)]; puller.pin) {
-    because.pin = puller.id;
+  } else if (const Puller& puller = pullers_[static_cast<std::size_t>(cause.goal)]; puller.kind != Puller::Kind::goal) {
+    (puller.kind == Puller::Kind::pin ? because.pin : because.binding) = puller.id;
     say_figure(puller.figure);
   } else {
     because.goal = puller.id;
@@ -156,7 +169,7 @@ proto::FigurePose FigureGroup::message(std::size_t figure) const {
   message.branch_changed = pose_.report.branch_changed;
   message.goals.reserve(pose_.goals.size());
   for (std::size_t i = 0; i < pose_.goals.size(); ++i) {
-    if (pullers_[i].pin || pullers_[i].figure != figure) continue;
+    if (pullers_[i].kind != Puller::Kind::goal || pullers_[i].figure != figure) continue;
     const GoalReport& report = pose_.goals[i];
     proto::GoalFrame& goal = message.goals.emplace_back();
     goal.id = pullers_[i].id;
@@ -174,7 +187,7 @@ std::vector<std::string> FigureGroup::notes() const {
   if (method_ == Method::reach_tree) return reach_notes_;
   std::size_t pulling = 0, reached = 0;
   for (std::size_t i = 0; i < pose_.goals.size(); ++i) {
-    if (pullers_[i].pin || pose_.goals[i].state == GoalState::off) continue;
+    if (pullers_[i].kind != Puller::Kind::goal || pose_.goals[i].state == GoalState::off) continue;
     ++pulling;
     reached += pose_.goals[i].state == GoalState::reached;
   }

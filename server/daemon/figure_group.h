@@ -33,8 +33,9 @@ class FigureGroup {
 
   // What is solved from now on: the figures of these trees, in that order; the answer keeps the order of the goals.
   // Both must stay where they are until the last `solve`; what the answer names is copied.
-  void set(std::vector<const SceneFigure*> figures, std::vector<const SceneGoal*> goals);
-  bool live() const;  // sensors move some of the goals
+  void set(std::vector<const SceneFigure*> figures, std::vector<const SceneGoal*> goals,
+           std::vector<const SceneBinding*> joints = {});  // bindings to joints of these figures
+  bool live() const;                                       // sensors move some of the goals or joints
   // From the figures' present q. Once it has solved these goals it does not allocate.
   void solve(const SolverOptions& options, const std::function<bool()>& should_stop);
 
@@ -45,16 +46,20 @@ class FigureGroup {
   // ---- the answer ----
   const std::vector<double>& q(std::size_t figure) const { return pose_.q[figure]; }
   const SolveReport& report() const { return pose_.report; }  // of all figures together
+  const std::vector<Transform>& world_from_segment(std::size_t figure) const {
+    return pose_.world_from_segment[figure];
+  }
   proto::FigurePose message(std::size_t figure) const;
   std::vector<std::string> notes() const;  // what the method makes of the goals, and does not do
   double moved() const;                    // what the solve changed most among the values of q, roots apart
 
  private:
-  // Whose reports pose_.goals are: the goals, then the pins.
+  // Whose reports pose_.goals are: the goals, then the pins, then joints that sensors move.
   struct Puller {
+    enum class Kind { goal, pin, binding };
     std::string id;  // of a pin: the segment
     std::size_t figure = 0;
-    bool pin = false;
+    Kind kind = Kind::goal;
   };
 
   std::size_t index_of(const std::string& figure) const;
@@ -70,7 +75,8 @@ class FigureGroup {
   std::vector<const SceneFigure*> figures_;
   std::vector<const SceneGoal*> goals_;
   std::vector<Puller> pullers_;
-  std::vector<SpringGoal> springs_;  // of goals, then of pins
+  std::vector<const SceneBinding*> joints_;
+  std::vector<SpringGoal> springs_;  // of goals, then of pins, then of joints
   std::vector<ReachGoal> reaches_;
   std::vector<std::string> reach_notes_;
   SpringPose pose_;

@@ -22,9 +22,15 @@ bool put_entity(const Entities& entities, const std::string& path, const std::st
 
 }  // namespace
 
-Journal::Journal(Loop& loop, Store& store, Scene& scene, Editing& editing, OnceMemory& once,
-                 std::function<void()> failed)
-    : loop_(loop), store_(store), scene_(scene), editing_(editing), once_(once), failed_(std::move(failed)) {}
+Journal::Journal(Loop& loop, Store& store, Scene& scene, const Calibrations& calibrations, Editing& editing,
+                 OnceMemory& once, std::function<void()> failed)
+    : loop_(loop),
+      store_(store),
+      scene_(scene),
+      calibrations_(calibrations),
+      editing_(editing),
+      once_(once),
+      failed_(std::move(failed)) {}
 
 void Journal::add(Done done, std::string once) {
   edits_.push_back({std::move(done), std::move(once)});
@@ -59,6 +65,13 @@ void Journal::put(const std::string& path, StoredChanges& changes) const {
     put_entity(scene_.objects(), path, id, changes, [](const auto& o) { return proto::encode_entity(o.object); });
   } else if (kind == "goals") {
     put_entity(scene_.goals(), path, id, changes, [](const auto& g) { return proto::encode_entity(g.goal); });
+  } else if (kind == "calibrations") {
+    if (const auto document = calibrations_.document(path))
+      changes.set.push_back({path, 0, *document});
+    else
+      changes.removed.push_back(path);
+  } else if (kind == "cameras") {
+    put_entity(scene_.cameras(), path, id, changes, [](const auto& c) { return proto::encode_entity(c.camera); });
   } else {
     put_entity(scene_.bindings(), path, id, changes, [](const auto& b) { return proto::encode_entity(b.binding); });
   }
@@ -83,6 +96,8 @@ StoredChanges Journal::gather() {
     for (const auto& [id, object] : scene_.objects()) paths.insert("/objects/" + id);
     for (const auto& [id, goal] : scene_.goals()) paths.insert("/goals/" + id);
     for (const auto& [id, binding] : scene_.bindings()) paths.insert("/bindings/" + id);
+    for (const auto& [id, camera] : scene_.cameras()) paths.insert("/cameras/" + id);
+    for (std::string& path : calibrations_.paths()) paths.insert(std::move(path));
   }
   for (const std::string& path : paths) put(path, changes);
   std::erase_if(stored_q_, [this](const auto& entry) { return !scene_.figures().contains(entry.first); });
@@ -111,7 +126,7 @@ void Journal::stored(const Status& status) {
     std::vector<Done> lost;
     for (Waiting& edit : edits_) {
       if (!edit.once.empty()) once_.forget(edit.once);
-      lost.push_back(std::move(edit.done));
+      if (!edit.done.change.empty()) lost.push_back(std::move(edit.done));
     }
     first_ += edits_.size();
     edits_.clear();

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "server/daemon/calibrations.h"
 #include "server/daemon/loop.h"
 #include "server/daemon/once.h"
 #include "server/scene/editing.h"
@@ -21,7 +22,8 @@ class Journal {
   using Told = std::function<void(const Status&)>;
 
   // `failed` is called when edits that the disk did not take have been undone, before those who wait are told.
-  Journal(Loop& loop, Store& store, Scene& scene, Editing& editing, OnceMemory& once, std::function<void()> failed);
+  Journal(Loop& loop, Store& store, Scene& scene, const Calibrations& calibrations, Editing& editing, OnceMemory& once,
+          std::function<void()> failed);
 
   // An edit that was done; `once` is its UUID or empty. To be followed by `write`, when its pose is solved.
   void add(Done done, std::string once);
@@ -46,6 +48,7 @@ class Journal {
   Loop& loop_;
   Store& store_;
   Scene& scene_;
+  const Calibrations& calibrations_;
   Editing& editing_;
   OnceMemory& once_;
   const std::function<void()> failed_;

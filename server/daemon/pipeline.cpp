@@ -4,6 +4,7 @@
 #include <thread>
 #include <utility>
 
+#include "server/calibration/apply.h"
 #include "server/daemon/metrics.h"
 #include "server/daemon/requests.h"
 
@@ -38,7 +39,7 @@ std::string document_text(const StoredScene& kept) {
     if (part.path.starts_with("/figures/") && part.path.ends_with("/q")) q[part.path] = part.document;
   }
   std::string text = R"({"format":"posed.scene/1")";
-  for (const std::string kind : {"figures", "objects", "goals", "bindings"}) {
+  for (const std::string kind : {"figures", "objects", "goals", "bindings", "cameras"}) {
     text += ",\"" + kind + "\":{";
     const std::string prefix = "/" + kind + "/";
     bool first = true;
@@ -67,7 +68,7 @@ Pipeline::Pipeline(Loop& station, net::Server& network, Store& disk, Templates s
       templates(std::move(scene_templates)),
       clock(daemon_clock),
       boot(random_key().substr(0, 16)),
-      journal(station, disk, scene, editing, once,
+      journal(station, disk, scene, calibrations, editing, once,
               [this] {
                 publisher.scene_failed();
                 wake_solver(false, false);
@@ -79,14 +80,20 @@ Pipeline::Pipeline(Loop& station, net::Server& network, Store& disk, Templates s
   sample_to_send_.reserve(kTimesKept);
 }
 
-void Pipeline::on_frame(const Frame& frame) {
+void Pipeline::on_frame(Frame frame) {
   ++frames;
   TrackerState& tracker = trackers[frame.device];
   ++tracker.frames;
   tracker.stations.clear();
   for (const Sample& sample : frame.samples) tracker.stations.push_back(sample.station);
+  measuring.hear(frame);
+  if (const Calibration* calibration = calibrations.chosen(frame.device)) calibration::apply(*calibration, frame);
+  if (!frame.samples.empty() && frame.samples[0].device_t_ns != 0)
+    frame.sample_t_ns = tracker.host_clock.measured(frame.samples[0].device_t_ns, frame.t_ns);
   publisher.publish_frame(frame);
-  if (!scene.follow(frame)) return;
+  const Scene::Followed moved = scene.follow(frame);
+  if (moved.cameras && !moved.pose) publisher.publish_cameras(frame.t_ns);
+  if (!moved.pose) return;  // else the cameras come with the pose
   if (!sample_t_ns_) sample_t_ns_ = frame.t_ns;
   pose_t_ns_ = frame.t_ns;
   wake_solver(true);
@@ -122,6 +129,7 @@ void Pipeline::solve() {
   solve_live_only_ = true;
   if (way_to_go) go_on();
   publisher.publish_pose(pose_t_ns_);
+  publisher.publish_cameras(pose_t_ns_);
   journal.write();  // now it carries the pose
   keep(solve_times_, solving.last_solve_ns());
   if (sample_t_ns_) keep(sample_to_send_, clock.now() - *sample_t_ns_);
@@ -163,6 +171,7 @@ Status Pipeline::resume(const StoredScene& kept) {
   if (Status loaded = scene.load(*document); !loaded) return loaded;
   std::map<std::string, Revision> revisions;
   for (const StoredPart& part : kept.parts) revisions[part.path] = part.revision;
+  if (Status loaded = calibrations.load(kept.parts); !loaded) return loaded;
   scene.resume(kept.revision, revisions);
   for (const StoredOnce& edit : kept.once) once.add({edit.uuid, edit.method, edit.result});
   pose_t_ns_ = clock.now();
@@ -225,6 +234,7 @@ void Pipeline::on_closed(net::ConnectionId connection) {
   publisher.forget(connection);
   workers.drop(connection);
   editing.gone(connection);
+  tracker_holds.release_all(connection);
   sessions.erase(connection);
 }
 
@@ -249,6 +259,11 @@ void Pipeline::tick() {
   stats.frame_age_p99_us = sent.quantile_us(0.99);
   stats.acked_age_us = acked.quantile_us(0.5);
   stats.acked_age_p99_us = acked.quantile_us(0.99);
+  for (auto& [id, tracker] : trackers) {
+    const tracker::HostClock::Stats arrivals = tracker.host_clock.take();
+    const std::uint64_t came = tracker.frames - std::exchange(tracker.counted, tracker.frames);
+    if (came > 0) stats.trackers.push_back({id, static_cast<double>(came), arrivals.jitter_us, arrivals.lag_us});
+  }
   publisher.publish_stats(stats);
   server.set_page("/metrics", "text/plain; version=0.0.4",
                   std::make_shared<const std::string>(metrics_page(stats, counters, scene.revision())));

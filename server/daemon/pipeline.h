@@ -1,6 +1,6 @@
 // READ FIRST. The whole way of the data, one function a step:
 //
-//   tracker bytes -> Frame -> on_frame: scene.follow -> solve -> publish -> viewers
+//   tracker bytes -> Frame -> on_frame: calibration -> scene.follow -> solve -> publish -> viewers
 //   viewer line -> request -> on_line: Requests::handle: editing.edit -> edited -> solve -> publish
 //
 // All of it runs on the station loop; only the server and the trackers have threads of their own, and they post here.
@@ -14,8 +14,10 @@
 
 #include "common/frame.h"
 #include "common/time.h"
+#include "server/daemon/calibrations.h"
 #include "server/daemon/journal.h"
 #include "server/daemon/loop.h"
+#include "server/daemon/measuring.h"
 #include "server/daemon/once.h"
 #include "server/daemon/publisher.h"
 #include "server/daemon/responder.h"
@@ -25,6 +27,7 @@
 #include "server/net/server.h"
 #include "server/scene/editing.h"
 #include "server/store/store.h"
+#include "server/tracker/host_clock.h"
 #include "server/tracker/tracker.h"
 
 namespace posed {
@@ -45,6 +48,8 @@ struct Session {
 struct TrackerState {
   std::string kind;
   tracker::Status status;
+  tracker::HostClock host_clock;  // of devices that tell their time
+  std::uint64_t counted = 0;      // frames at the last tick
   // Counted here, since a status comes only now and then.
   std::uint64_t frames = 0;
   std::vector<int> stations;  // of the last frame
@@ -54,7 +59,7 @@ class Pipeline {
  public:
   Pipeline(Loop& loop, net::Server& server, Store& store, Templates templates, const Clock& clock);
 
-  void on_frame(const Frame& frame);
+  void on_frame(Frame frame);
   void on_tracker(const std::string& id, const std::string& kind, const tracker::Status& status);
   void on_opened(net::ConnectionId connection, net::Peer peer);
   void on_closed(net::ConnectionId connection);
@@ -71,6 +76,10 @@ class Pipeline {
   // To be called after every edit: has the figures solved at once, and tells followers and `stored` when the disk has
   // it. `back`: to what was before, so the poses stay near what they are. `once`: the edit's UUID.
   void edited(net::ConnectionId by, Done done, std::string once, bool back, Stored stored);
+  // What was added to the journal beside edits goes to the store, with edits that wait for their pose if there are any.
+  void store_soon() {
+    if (!solve_due_) journal.write();
+  }
   // Solves again although nothing was edited.
   void resolve() { wake_solver(false); }
   // The scene to begin with. Nothing changes on an error.
@@ -88,6 +97,11 @@ class Pipeline {
   const std::string boot;
   Scene scene;
   Editing editing{scene};
+  Calibrations calibrations;
+  Measuring measuring{loop};
+  Holds tracker_holds{"tracker", "/tracker"};
+  // Set by the daemon: hands settings to the tracker of this id. Errors: its, by the names of the fields.
+  std::function<Status(const std::string& tracker, const tracker::Settings& settings)> configure_device;
   OnceMemory once;
   Journal journal;
   Solving solving;

@@ -66,7 +66,7 @@ Publisher::Channel Publisher::channel_of(const proto::StreamSubscribe& wish) {
 void Publisher::subscribe(net::ConnectionId connection, const proto::StreamSubscribe& wish) {
   unsubscribe(connection, wish.stream);
   const Channel channel = channel_of(wish);
-  const bool first_of_scene = !scene_followed();
+  const bool first_of_scene = !followed(proto::Stream::scene);
   auto [it, made] = channels_.try_emplace(channel);
   State& state = it->second;
   if (made) state.key = next_key_++;
@@ -82,6 +82,10 @@ void Publisher::subscribe(net::ConnectionId connection, const proto::StreamSubsc
   }
   net::SharedLine present = state.last;
   if (wish.stream == proto::Stream::pose) present = encode_pose(channel, ++state.seq, pose_t_ns_);
+  if (wish.stream == proto::Stream::camera) {
+    publish_cameras(pose_t_ns_);  // so that all followers have seen the same
+    present = share(proto::encode_camera_frame(++state.seq, {pose_t_ns_, cameras_}), wish.stream, wish.encoding);
+  }
   server_.subscribe(
       connection, {wish.stream, state.key, wish.max_rate_hz, wish.credit, true, wish.encoding == proto::Encoding::cbor},
       std::move(present), state.seq);
@@ -155,6 +159,43 @@ void Publisher::publish_pose(Nanoseconds t_ns) {
   }
 }
 
+// A camera relative to a sensor that has not been heard is absent.
+proto::CameraData Publisher::camera_data(Nanoseconds t_ns) const {
+  proto::CameraData data;
+  data.t_ns = t_ns;
+  for (const auto& [id, camera] : scene_.cameras()) {
+    const GoalBase& base = camera.camera.relative_to;
+    Transform world_from_base;
+    if (base.kind == GoalBase::Kind::segment) {
+      const Transform* segment = solving_.world_from_segment(base.figure, camera.base_segment);
+      if (!segment) continue;
+      world_from_base = *segment;
+    } else if (base.kind != GoalBase::Kind::world) {
+      if (!camera.world_from_base) continue;
+      world_from_base = *camera.world_from_base;
+    }
+    data.cameras.push_back(
+        {id, camera.live ? *camera.live : world_from_base * camera.camera.base_from_camera, camera.camera.fov_y});
+    Quat& rotation = data.cameras.back().world_from_camera.rotation;
+    for (const proto::CameraFrame& sent : cameras_) {
+      if (sent.camera == id) rotation = same_sign(sent.world_from_camera.rotation, rotation);
+    }
+  }
+  return data;
+}
+
+void Publisher::publish_cameras(Nanoseconds t_ns) {
+  if (!followed(proto::Stream::camera)) return;
+  proto::CameraData data = camera_data(t_ns);
+  if (data.cameras == cameras_) return;
+  cameras_ = data.cameras;
+  for (auto& [channel, state] : channels_) {
+    if (channel.stream != proto::Stream::camera) continue;
+    ++state.seq;
+    publish(channel, state, share(proto::encode_camera_frame(state.seq, data), channel.stream, channel.encoding), t_ns);
+  }
+}
+
 void Publisher::publish_frame(const Frame& frame) {
   for (auto& [channel, state] : channels_) {
     if (channel.stream != proto::Stream::tracker) continue;
@@ -174,9 +215,9 @@ void Publisher::publish_stats(const proto::StatsData& stats) {
   }
 }
 
-bool Publisher::scene_followed() const {
+bool Publisher::followed(proto::Stream stream) const {
   return std::any_of(channels_.begin(), channels_.end(),
-                     [](const auto& entry) { return entry.first.stream == proto::Stream::scene; });
+                     [stream](const auto& entry) { return entry.first.stream == stream; });
 }
 
 std::string Publisher::scene_text() const {
@@ -186,7 +227,7 @@ std::string Publisher::scene_text() const {
 }
 
 void Publisher::publish_scene(const std::string& by) {
-  if (!scene_followed()) return;
+  if (!followed(proto::Stream::scene)) return;
   std::string text = scene_text();
   journal_.when_stored([this, from = scene_revision_, revision = scene_.revision(), by,
                         patch = proto::diff(scene_text_, text)](const Status& stored) {

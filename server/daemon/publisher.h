@@ -33,6 +33,7 @@ class Publisher {
   void forget(net::ConnectionId connection);
 
   void publish_pose(Nanoseconds t_ns);
+  void publish_cameras(Nanoseconds t_ns);  // where they stand has changed, or may have
   void publish_frame(const Frame& frame);
   void publish_scene(const std::string& by);  // after each edit; sent when the disk has it
   void scene_failed();                        // edits that the disk did not take are undone
@@ -58,7 +59,8 @@ class Publisher {
   static Channel channel_of(const proto::StreamSubscribe& wish);
   void publish(const Channel& channel, State& state, net::SharedLine line, Nanoseconds t_ns = 0);
   net::SharedLine encode_pose(const Channel& channel, std::uint64_t seq, Nanoseconds t_ns) const;
-  bool scene_followed() const;
+  bool followed(proto::Stream stream) const;
+  proto::CameraData camera_data(Nanoseconds t_ns) const;
   std::string scene_text() const;
   void send_patch(Revision from, Revision revision, const std::string& by, const std::string& patch);
   void subscribe_to_scene(net::ConnectionId connection, const proto::StreamSubscribe& wish);
@@ -72,6 +74,7 @@ class Publisher {
   std::uint32_t next_key_ = 1;
   std::map<net::ConnectionId, std::array<std::optional<Channel>, proto::kStreams>> followers_;
   Nanoseconds pose_t_ns_ = 0;
+  std::vector<proto::CameraFrame> cameras_;  // as last sent
   // Of the scene stream: what its followers have, or will when the disk has what waits for it.
   std::string scene_text_;
   Revision scene_revision_ = 0;

@@ -22,6 +22,14 @@ class Requests {
   void on(const proto::SessionStatus&, Responder);
   void on(const proto::SessionList&, Responder);
   void on(const proto::TrackerList&, Responder);
+  void on(const proto::TrackerGrab&, Responder);
+  void on(const proto::TrackerRelease&, Responder);
+  void on(const proto::TrackerConfigure&, Responder);
+  void on(const proto::TrackerReset&, Responder);
+  void on(const proto::TrackerTouch&, Responder);
+  void on(const proto::TrackerAlign&, Responder);
+  void on(const proto::TrackerTip&, Responder);
+  void on(const proto::TrackerBoresight&, Responder);
 
   void on(const proto::FigureGet&, Responder);
   void on(const proto::FigureList&, Responder);
@@ -31,6 +39,8 @@ class Requests {
   void on(const proto::ObjectList&, Responder);
   void on(const proto::BindingGet&, Responder);
   void on(const proto::BindingList&, Responder);
+  void on(const proto::CameraGet&, Responder);
+  void on(const proto::CameraList&, Responder);
 
   void on(const proto::JointGet&, Responder);
   void on(const proto::PoseGet&, Responder);
@@ -50,6 +60,14 @@ class Requests {
   void on(const proto::StreamSubscribe&, Responder);
   void on(const proto::StreamUnsubscribe&, Responder);
   void on(const proto::StreamAck&, Responder);
+
+  Status may_touch(const std::string& tracker, bool force, Nanoseconds busy_for = 0);
+  Result<SensorName> find_sensor(const std::string& name, bool force, Nanoseconds busy_for);
+  Status check_name(const std::string& name) const;
+  Status read_settings(const proto::TrackerConfigure& m, tracker::Settings& settings) const;
+  void put_calibration(Calibration calibration, Responder responder);
+  void keep_calibrations(const std::string& tracker, Calibrations::OfTracker before, Responder responder,
+                         const std::string& result);
 
   Status allowed(const proto::Params& params) const;
   void on(const proto::EditUndo&, Responder);

@@ -1,4 +1,4 @@
-// Figures, goals, objects and bindings as they are.
+// Figures, goals, objects, bindings and cameras as they are.
 #include "common/names.h"
 #include "server/daemon/requests.h"
 
@@ -22,6 +22,10 @@ proto::ObjectResult message(const SceneObject& object) {
 }
 proto::BindingResult message(const SceneBinding& binding) {
   return {binding.binding, binding.revision};
+}
+
+proto::CameraResult message(const SceneCamera& camera) {
+  return {camera.camera, camera.revision};
 }
 
 }  // namespace
@@ -80,6 +84,17 @@ void Requests::on(const proto::BindingGet& m, Responder responder) {
 void Requests::on(const proto::BindingList&, Responder responder) {
   proto::BindingListResult result;
   for (const auto& [id, binding] : p_.scene.bindings()) result.bindings.push_back(message(binding));
+  responder.result(result);
+}
+
+void Requests::on(const proto::CameraGet& m, Responder responder) {
+  if (const SceneCamera* camera = find(p_.scene.cameras(), m.id, "camera", responder))
+    responder.result(message(*camera));
+}
+
+void Requests::on(const proto::CameraList&, Responder responder) {
+  proto::CameraListResult result;
+  for (const auto& [id, camera] : p_.scene.cameras()) result.cameras.push_back(message(camera));
   responder.result(result);
 }
 

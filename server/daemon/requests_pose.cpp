@@ -32,6 +32,11 @@ void Requests::on(const proto::JointGet& m, Responder responder) {
     result.deviation = o.deviation;
     result.twist = o.twist;
   }
+  const auto hold = p_.scene.goals().find(hold_of(result.figure, m.joint));
+  if (hold != p_.scene.goals().end()) {
+    result.hold.emplace();
+    if (hold->second.goal.priority == 0) result.hold->weight = hold->second.goal.weight.value;
+  }
   responder.result(result);
 }
 

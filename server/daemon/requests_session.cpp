@@ -1,10 +1,9 @@
-// Lines, sessions, trackers and streams.
+// Lines, sessions and streams.
 #include <random>
 #include <utility>
 
 #include "common/names.h"
 #include "server/daemon/requests.h"
-#include "server/daemon/sensor_message.h"
 
 namespace posed {
 namespace {
@@ -19,22 +18,6 @@ std::string random_key() {
   std::string key;
   for (int i = 0; i < 32; ++i) key += kDigits[device() & 15u];
   return key;
-}
-
-const char* tracker_state_name(tracker::State state) {
-  switch (state) {
-    case tracker::State::searching:
-      return "searching";
-    case tracker::State::starting:
-      return "starting";
-    case tracker::State::streaming:
-      return "streaming";
-    case tracker::State::silent:
-      return "silent";
-    case tracker::State::failed:
-      return "failed";
-  }
-  return "failed";
 }
 
 void Requests::handle(proto::Line line) {
@@ -103,7 +86,8 @@ void Requests::on(const proto::SessionHello& hello, Responder responder) {
   result.resume = session.resume;
   result.boot = p_.boot;
   result.role = session.role;
-  result.features = {"springs", "reach_tree", "solve", "objects", "undo", "holds", "durable"};
+  result.features = {"springs", "reach_tree", "solve",   "objects",     "undo",
+                     "holds",   "durable",    "cameras", "calibrations"};
   result.t_ns = p_.clock.now();
   result.utc_ns = utc_now();
   responder.result(result);
@@ -135,23 +119,6 @@ void Requests::on(const proto::SessionList&, Responder responder) {
   for (const auto& [connection, session] : p_.sessions) {
     result.sessions.push_back({session.id, session.peer.address, session.peer.websocket ? "websocket" : "lines",
                                session.user, session.client});
-  }
-  responder.result(result);
-}
-
-void Requests::on(const proto::TrackerList&, Responder responder) {
-  proto::TrackerListResult result;
-  for (const auto& [id, tracker] : p_.trackers) {
-    const tracker::Status& status = tracker.status;
-    proto::TrackerEntry& entry = result.trackers.emplace_back();
-    entry.tracker = id;
-    entry.kind = tracker.kind;
-    entry.state = tracker_state_name(status.state);
-    entry.message = status.message;
-    entry.rate_hz = status.rate_hz;
-    entry.frames = tracker.frames;
-    entry.bad_bytes = status.bad_bytes;
-    for (const int station : tracker.stations) entry.sensors.push_back(sensor_id(id, station));
   }
   responder.result(result);
 }

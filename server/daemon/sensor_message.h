@@ -13,6 +13,7 @@ inline std::string sensor_id(const std::string& device, int station) {
 inline proto::TrackerData tracker_message(const Frame& frame) {
   proto::TrackerData data;
   data.t_ns = frame.t_ns;
+  data.sample_t_ns = frame.sample_t_ns;
   data.device = frame.device;
   for (const Sample& sample : frame.samples) {
     proto::SensorData& sensor = data.sensors.emplace_back();

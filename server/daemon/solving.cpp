@@ -44,14 +44,22 @@ std::unique_ptr<FigureGroup> Solving::make_group(const std::vector<const SceneFi
 
 void Solving::gather(const Scene& scene) {
   const std::map<std::string, std::size_t> tied = tie(scene, method);
-  std::map<std::size_t, std::pair<std::vector<const SceneFigure*>, std::vector<const SceneGoal*>>> parts;
-  for (const auto& [id, figure] : scene.figures()) parts[tied.at(id)].first.push_back(&figure);
-  for (const auto& [id, goal] : scene.goals()) parts[tied.at(goal.goal.figure)].second.push_back(&goal);
+  struct Part {
+    std::vector<const SceneFigure*> figures;
+    std::vector<const SceneGoal*> goals;
+    std::vector<const SceneBinding*> joints;
+  };
+  std::map<std::size_t, Part> parts;
+  for (const auto& [id, figure] : scene.figures()) parts[tied.at(id)].figures.push_back(&figure);
+  for (const auto& [id, goal] : scene.goals()) parts[tied.at(goal.goal.figure)].goals.push_back(&goal);
+  for (const auto& [id, binding] : scene.bindings()) {
+    if (!binding.binding.to.joint.empty()) parts[tied.at(binding.binding.to.figure)].joints.push_back(&binding);
+  }
   std::vector<std::unique_ptr<FigureGroup>> groups;
   figures_.clear();
   for (auto& [number, part] : parts) {
-    FigureGroup& group = *groups.emplace_back(make_group(part.first));
-    group.set(std::move(part.first), std::move(part.second));
+    FigureGroup& group = *groups.emplace_back(make_group(part.figures));
+    group.set(std::move(part.figures), std::move(part.goals), std::move(part.joints));
     for (std::size_t i = 0; i < group.ids().size(); ++i) figures_[group.ids()[i]] = {&group, i, 0};
   }
   groups_ = std::move(groups);
@@ -90,6 +98,13 @@ bool Solving::solve(Scene& scene, bool live_only, const Clock& clock, bool explo
     }
   }
   return way_to_go;
+}
+
+const Transform* Solving::world_from_segment(const std::string& figure, int segment) const {
+  const auto solved = figures_.find(figure);
+  if (solved == figures_.end()) return nullptr;
+  const std::vector<Transform>& world = solved->second.group->world_from_segment(solved->second.index);
+  return static_cast<std::size_t>(segment) < world.size() ? &world[static_cast<std::size_t>(segment)] : nullptr;
 }
 
 proto::FigurePose Solving::message(const std::string& id) const {

@@ -35,6 +35,8 @@ class Solving {
   std::uint64_t solves() const { return solves_; }
   Nanoseconds last_solve_ns() const { return last_solve_ns_; }
 
+  // Where a segment stands in the world; null before its figure is solved.
+  const Transform* world_from_segment(const std::string& figure, int segment) const;
   // As the wire has it. Of a figure that is solved.
   proto::FigurePose message(const std::string& figure) const;
 

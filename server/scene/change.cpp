@@ -27,6 +27,9 @@ std::size_t bytes_of(const SceneObject& object) {
 std::size_t bytes_of(const SceneBinding& binding) {
   return sizeof binding + binding.binding.user.size() + binding.binding.label.size();
 }
+std::size_t bytes_of(const SceneCamera& camera) {
+  return sizeof camera + camera.camera.user.size() + camera.camera.label.size();
+}
 
 template <class Entity>
 std::size_t bytes_of(const std::map<std::string, ChangedEntity<Entity>>& part) {
@@ -62,7 +65,7 @@ void take_in(std::map<std::string, ChangedEntity<Entity>>& first,
 }  // namespace
 
 bool Change::empty() const {
-  return figures.empty() && objects.empty() && goals.empty() && bindings.empty() && poses.empty();
+  return figures.empty() && objects.empty() && goals.empty() && bindings.empty() && cameras.empty() && poses.empty();
 }
 
 std::vector<std::string> Change::entities() const {
@@ -71,6 +74,7 @@ std::vector<std::string> Change::entities() const {
   name(objects, "/objects/", all);
   name(goals, "/goals/", all);
   name(bindings, "/bindings/", all);
+  name(cameras, "/cameras/", all);
   for (const auto& [figure, pose] : poses) {
     if (pose.asked && !figures.contains(figure)) all.push_back("/figures/" + figure + "/q");
   }
@@ -78,7 +82,8 @@ std::vector<std::string> Change::entities() const {
 }
 
 std::size_t Change::bytes() const {
-  std::size_t bytes = bytes_of(figures) + bytes_of(objects) + bytes_of(goals) + bytes_of(bindings) + print.bytes();
+  std::size_t bytes =
+      bytes_of(figures) + bytes_of(objects) + bytes_of(goals) + bytes_of(bindings) + bytes_of(cameras) + print.bytes();
   for (const auto& [figure, pose] : poses) bytes += 128 + pose.q.size() * sizeof(double);
   return bytes;
 }
@@ -89,17 +94,18 @@ bool Change::commutes(const Change& o) const {
     return other != o.poses.end() && entry.second.asked && other->second.asked;
   });
   return !both_posed && !touch(figures, o.figures) && !touch(objects, o.objects) && !touch(goals, o.goals) &&
-         !touch(bindings, o.bindings) && !print.clashes(o.print);
+         !touch(bindings, o.bindings) && !touch(cameras, o.cameras) && !print.clashes(o.print);
 }
 
 bool Change::join(const Change& next) {
   if (!follows(figures, next.figures) || !follows(objects, next.objects) || !follows(goals, next.goals) ||
-      !follows(bindings, next.bindings))
+      !follows(bindings, next.bindings) || !follows(cameras, next.cameras))
     return false;
   take_in(figures, next.figures);
   take_in(objects, next.objects);
   take_in(goals, next.goals);
   take_in(bindings, next.bindings);
+  take_in(cameras, next.cameras);
   for (const auto& [figure, after] : next.poses) {
     const auto [place, is_new] = poses.try_emplace(figure, after);
     if (is_new) continue;

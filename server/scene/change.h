@@ -35,6 +35,7 @@ struct Change {
   std::map<std::string, ChangedEntity<SceneObject>> objects;
   std::map<std::string, ChangedEntity<SceneGoal>> goals;
   std::map<std::string, ChangedEntity<SceneBinding>> bindings;
+  std::map<std::string, ChangedEntity<SceneCamera>> cameras;
   std::map<std::string, ChangedPose> poses;
   Footprint print;
 

@@ -2,6 +2,7 @@
 // values.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -9,6 +10,8 @@
 #include <vector>
 
 #include "common/scene.h"
+#include "server/scene/binding_motion.h"
+#include "server/scene/motion_filter.h"
 #include "server/scene/sensor_name.h"
 #include "server/solver/body_tree.h"
 #include "server/solver/spring_goal.h"
@@ -41,15 +44,18 @@ struct SceneGoal : EntityState {
   int base_segment = -1;   // relative to a segment: which, of the figure goal.relative_to.figure
   SensorName base_sensor;  // relative to a sensor
   // What sensors say; no part of the document.
-  std::optional<Vec3> live;                  // where a bound sensor has the goal's position, in the world
+  std::optional<Transform> live;             // where a bound sensor has it, in the world; of the payload's parts
   std::optional<Transform> world_from_base;  // relative to an object, or to a sensor that has been heard
   bool base_moves = false;                   // sensors move the base
 
-  // Of position and pose goals.
-  Vec3 target() const {
+  // Of position, orientation and pose goals; what the payload lacks is at rest.
+  Transform place() const {
+    if (live) return *live;
     const Vec3* position = position_of(goal.payload);
-    return live ? *live : position ? *position : kZero;
+    const Quat* rotation = rotation_of(goal.payload);
+    return {position ? *position : kZero, rotation ? *rotation : quat_identity()};
   }
+  Vec3 target() const { return place().position; }
   bool follows_sensors() const { return live || base_moves; }
   bool rides_on(const std::string& object) const {
     return goal.relative_to.kind == GoalBase::Kind::object && goal.relative_to.object == object;
@@ -63,13 +69,29 @@ struct SceneObject : EntityState {
   const Transform& world_from_object() const { return live ? *live : object.world_from_object; }
 };
 
+struct SceneCamera : EntityState {
+  Camera camera;           // its rotation has unit length
+  int base_segment = -1;   // relative to a segment: which, of the figure camera.relative_to.figure
+  SensorName base_sensor;  // relative to a sensor
+  // What sensors say; no part of the document.
+  std::optional<Transform> live;             // where a bound sensor has it, in the world
+  std::optional<Transform> world_from_base;  // relative to an object, or to a sensor that has been heard
+
+  bool rides_on(const std::string& object) const {
+    return camera.relative_to.kind == GoalBase::Kind::object && camera.relative_to.object == object;
+  }
+};
+
 struct SceneBinding : EntityState {
-  Binding binding;
+  Binding binding;  // its axes are said, and a joint's figure
   SensorName sensor;
-  struct Anchor {
-    Transform sensor, target;
-  };
-  std::optional<Anchor> anchor;  // relative mode: where both stood at the first sample
+  int joint = -1;  // of a joint: which, of the figure binding.to.figure
+  // What the sensor says; no part of the document.
+  MotionFilter filter;                 // where the binding has one
+  std::optional<MotionAnchor> anchor;  // relative mode: where both stood when the motion began
+  std::optional<Transform> rest;       // of a joint: how its segment lay in the world at the first sample
+  std::array<double, 4> share{};       // of a joint: its share of q, where `moves_joint`
+  bool moves_joint = false;
 };
 
 }  // namespace posed

@@ -85,9 +85,17 @@ Result<Edited> Scene::set_figure(FigureEntry entry, IfRevision if_revision) {
     again->base_moves = goal.base_moves;
     goals.emplace(goal_id, std::move(*again));
   }
+  Result<std::map<std::string, SceneBinding>> bindings = refit_bindings(id, figures.at(id));
+  if (!bindings) return bindings.error();
+  Result<std::map<std::string, SceneCamera>> cameras = refit_cameras(id, figures.at(id));
+  if (!cameras) return cameras.error();
   keep_figure(id);
   for (const auto& [goal_id, goal] : goals) keep_goal(goal_id);
+  for (const auto& [binding_id, binding] : *bindings) keep_binding(binding_id);
+  for (const auto& [camera_id, camera] : *cameras) keep_camera(camera_id);
   for (auto& [goal_id, goal] : goals) goals_.insert_or_assign(goal_id, std::move(goal));
+  for (auto& [binding_id, binding] : *bindings) bindings_.insert_or_assign(binding_id, std::move(binding));
+  for (auto& [camera_id, camera] : *cameras) cameras_.insert_or_assign(camera_id, std::move(camera));
   figures_ = std::move(figures);
   return Edited{id, count(), revision};
 }
@@ -95,11 +103,18 @@ Result<Edited> Scene::set_figure(FigureEntry entry, IfRevision if_revision) {
 Result<Edited> Scene::remove_figure(const std::string& id, IfRevision if_revision) {
   if (!figures_.contains(id)) return unknown("figure", id, keys(figures_), "/id");
   if (const auto error = stale(figures_, id, if_revision)) return *error;
+  for (const auto& [camera_id, camera] : cameras_) {
+    const GoalBase& base = camera.camera.relative_to;
+    if (base.kind == GoalBase::Kind::segment && base.figure == id)
+      return Error{"in_use", "camera " + camera_id + " is relative to figure " + id, "/id",
+                   "remove it or set its relative_to first"};
+  }
   std::vector<std::string> orphans;
   for (const auto& [goal_id, goal] : goals_) {
     if (concerns(goal.goal, id)) orphans.push_back(goal_id);
   }
   for (const std::string& goal_id : orphans) drop_goal(goal_id);
+  drop_bindings([&](const BindingTarget& to) { return to.figure == id; });
   keep_figure(id);
   figures_.erase(id);
   return Edited{id, count(), 0};

@@ -1,5 +1,7 @@
 // Live motion: what sensors move, and what rides on that. No edit; nothing here allocates.
 #include "server/scene/scene.h"
+#include "server/scene/spring_goals.h"
+#include "server/solver/kinematics.h"
 
 namespace posed {
 namespace {
@@ -8,103 +10,155 @@ bool differ(const Transform& a, const Transform& b) {
   return a.position != b.position || a.rotation != b.rotation;
 }
 
-}  // namespace
-
-// Where the target of a binding stands now.
-Transform Scene::target_of(const BindingTarget& to) const {
-  if (!to.object.empty()) return objects_.find(to.object)->second.world_from_object();
-  return {goals_.find(to.goal)->second.target(), quat_identity()};
-}
-
-// True where it has moved.
-bool Scene::place_target(const BindingTarget& to, const Axes& axes, const Transform& wanted) {
-  const auto blend = [&axes](Vec3 position, const Vec3& towards) {
-    if (axes.x) position.x = towards.x;
-    if (axes.y) position.y = towards.y;
-    if (axes.z) position.z = towards.z;
-    return position;
-  };
-  if (!to.object.empty()) {
-    SceneObject& object = objects_.find(to.object)->second;
-    Transform placed = object.object.world_from_object;
-    placed.position = blend(placed.position, wanted.position);
-    if (axes.rotation) placed.rotation = wanted.rotation;
-    const bool moved = !object.live || differ(*object.live, placed);
-    object.live = placed;
-    if (moved) carry(object);
-    return moved;
-  }
-  SceneGoal& goal = goals_.find(to.goal)->second;
-  const Vec3* placed = position_of(goal.goal.payload);
-  if (!placed) return false;
-  const Vec3 target = blend(*placed, wanted.position);
-  const bool moved = !goal.live || *goal.live != target;
-  goal.live = target;
+bool move(std::optional<Transform>& live, const Transform& to) {
+  const bool moved = !live || differ(*live, to);
+  live = to;
   return moved;
 }
 
-// Takes along the goals that are relative to it. True where there are any.
-bool Scene::carry(const SceneObject& object) {
-  bool any = false;
+// How the joint's frame lies in the world before it turns.
+Quat world_from_joint(const SceneFigure& figure, int joint) {
+  const BodyTree& tree = *figure.tree;
+  const Quat own = tree.joint(joint).parent_from_joint.rotation;
+  return tree.parent(joint) < 0 ? own : world_rotation(tree, tree.parent(joint), figure.q) * own;
+}
+
+}  // namespace
+
+// Where the target of a binding stands now; of a joint how its segment lies in the world.
+Transform Scene::target_of(const SceneBinding& binding) const {
+  const BindingTarget& to = binding.binding.to;
+  if (!to.goal.empty()) return goals_.find(to.goal)->second.place();
+  if (!to.object.empty()) return objects_.find(to.object)->second.world_from_object();
+  if (!to.camera.empty()) {
+    const SceneCamera& camera = cameras_.find(to.camera)->second;
+    return camera.live.value_or(camera.camera.base_from_camera);
+  }
+  const SceneFigure& figure = figures_.find(to.figure)->second;
+  return {kZero, world_rotation(*figure.tree, binding.joint, figure.q)};
+}
+
+void Scene::place_target(SceneBinding& binding, const Transform& wanted, Followed& followed) {
+  const BindingTarget& to = binding.binding.to;
+  const Axes& axes = *binding.binding.axes;
+  if (!to.goal.empty()) {
+    SceneGoal& goal = goals_.find(to.goal)->second;
+    const Vec3* position = position_of(goal.goal.payload);
+    const Quat* rotation = rotation_of(goal.goal.payload);
+    const Transform rest{position ? *position : kZero, rotation ? *rotation : quat_identity()};
+    followed.pose = move(goal.live, on_axes(axes, rest, wanted)) || followed.pose;
+  } else if (!to.object.empty()) {
+    SceneObject& object = objects_.find(to.object)->second;
+    if (!move(object.live, on_axes(axes, object.object.world_from_object, wanted))) return;
+    followed.pose = true;
+    followed.cameras = carry(object).cameras || followed.cameras;
+  } else if (!to.camera.empty()) {
+    SceneCamera& camera = cameras_.find(to.camera)->second;
+    followed.cameras = move(camera.live, on_axes(axes, camera.camera.base_from_camera, wanted)) || followed.cameras;
+  } else {
+    const SceneFigure& figure = figures_.find(to.figure)->second;
+    const Joint& joint = figure.tree->joint(binding.joint);
+    if (!binding.rest) binding.rest = target_of(binding);
+    const Quat turn =
+        glm::conjugate(world_from_joint(figure, binding.joint)) * on_axes(axes, *binding.rest, wanted).rotation;
+    std::array<double, 4> share{};
+    if (joint.type == JointType::hinge) {
+      share[0] = twist_angle(turn, joint.axes[0]);
+    } else {
+      const auto before =
+          std::span<const double>(figure.q).subspan(static_cast<std::size_t>(figure.tree->q_at(binding.joint)), 4);
+      share = xyzw(same_sign(quat_from_xyzw(before), glm::normalize(turn)));
+    }
+    followed.pose = followed.pose || !binding.moves_joint || share != binding.share;
+    binding.share = share;
+    binding.moves_joint = true;
+  }
+}
+
+// Takes along what is relative to it.
+Scene::Followed Scene::carry(const SceneObject& object) {
+  Followed followed;
   for (auto& [id, goal] : goals_) {
     if (!goal.rides_on(object.object.id)) continue;
     goal.world_from_base = object.world_from_object();
     goal.base_moves = object.live.has_value();
-    any = true;
+    followed.pose = true;
   }
-  return any;
+  for (auto& [id, camera] : cameras_) {
+    if (!camera.rides_on(object.object.id)) continue;
+    camera.world_from_base = object.world_from_object();
+    followed.cameras = true;
+  }
+  return followed;
 }
 
-bool Scene::follow(const Frame& frame) {
-  bool moved = false;
+// The filter hears the sensor whether the clutch is held or not.
+void Scene::follow(SceneBinding& binding, const Sample& sample, Nanoseconds t_ns, Followed& followed) {
+  const Binding& b = binding.binding;
+  Transform world_from_sensor{sample.position, sample.rotation};
+  if (b.filter)
+    world_from_sensor =
+        binding.filter.next(*b.filter, world_from_sensor, sample.device_t_ns ? sample.device_t_ns : t_ns);
+  if (b.clutch && (sample.buttons >> b.clutch->button & 1u) == 0) return binding.anchor.reset();
+  if (b.mode == Binding::Mode::absolute) return place_target(binding, absolute_motion(b, world_from_sensor), followed);
+  if (!binding.anchor) binding.anchor = MotionAnchor{world_from_sensor, target_of(binding)};
+  place_target(binding, relative_motion(b, *binding.anchor, world_from_sensor), followed);
+}
+
+Scene::Followed Scene::follow(const Frame& frame) {
+  Followed followed;
+  const auto sample_of = [&frame](const SensorName& sensor) -> const Sample* {
+    if (sensor.station == 0 || sensor.device != frame.device) return nullptr;
+    for (const Sample& sample : frame.samples) {
+      if (sample.station == sensor.station) return &sample;
+    }
+    return nullptr;
+  };
   for (auto& [id, goal] : goals_) {
-    if (goal.base_sensor.station == 0 || goal.base_sensor.device != frame.device) continue;
-    for (const Sample& sample : frame.samples) {
-      if (sample.station != goal.base_sensor.station) continue;
-      const Transform base{sample.position, sample.rotation};
-      moved = moved || !goal.world_from_base || differ(*goal.world_from_base, base);
-      goal.world_from_base = base;
-      goal.base_moves = true;
-    }
+    const Sample* sample = sample_of(goal.base_sensor);
+    if (!sample) continue;
+    followed.pose = move(goal.world_from_base, {sample->position, sample->rotation}) || followed.pose;
+    goal.base_moves = true;
   }
-  for (auto& [id, b] : bindings_) {
-    if (b.sensor.device != frame.device) continue;
-    for (const Sample& sample : frame.samples) {
-      if (sample.station != b.sensor.station) continue;
-      Transform wanted{sample.position * b.binding.scale, sample.rotation};
-      if (b.binding.mode == Binding::Mode::relative) {
-        if (!b.anchor) b.anchor = SceneBinding::Anchor{{sample.position, sample.rotation}, target_of(b.binding.to)};
-        const SceneBinding::Anchor& from = *b.anchor;
-        wanted.position = from.target.position + b.binding.scale * (sample.position - from.sensor.position);
-        wanted.rotation = glm::normalize(sample.rotation * glm::conjugate(from.sensor.rotation) * from.target.rotation);
-      }
-      const bool placed = place_target(b.binding.to, b.binding.axes, wanted);
-      moved = moved || placed;
-    }
+  for (auto& [id, camera] : cameras_) {
+    if (const Sample* sample = sample_of(camera.base_sensor))
+      followed.cameras = move(camera.world_from_base, {sample->position, sample->rotation}) || followed.cameras;
   }
-  return moved;
+  for (auto& [id, binding] : bindings_) {
+    if (const Sample* sample = sample_of(binding.sensor)) follow(binding, *sample, frame.t_ns, followed);
+  }
+  return followed;
 }
 
-// The goal or object stays where the sensor left it: letting go of a thing does not throw it back.
-void Scene::let_go(const BindingTarget& target) {
-  if (!target.object.empty()) {
-    SceneObject& object = objects_.at(target.object);
+// What was bound stays where the sensor left it: letting go of a thing does not throw it back. Of a joint that is what
+// the figure's q says already.
+void Scene::let_go(const SceneBinding& binding) {
+  const BindingTarget& to = binding.binding.to;
+  if (!to.goal.empty()) {
+    SceneGoal& goal = goals_.at(to.goal);
+    if (!goal.live) return;
+    keep_goal(to.goal);
+    if (Vec3* position = position_of(goal.goal.payload)) *position = goal.live->position;
+    if (Quat* rotation = rotation_of(goal.goal.payload)) *rotation = goal.live->rotation;
+    place_spring(goal.place(), goal.spring);
+    goal.live.reset();
+    ++goal.revision;
+  } else if (!to.object.empty()) {
+    SceneObject& object = objects_.at(to.object);
     if (!object.live) return;
-    keep_object(target.object);
+    keep_object(to.object);
     object.object.world_from_object = *object.live;
     object.live.reset();
     ++object.revision;
     carry(object);
-    return;
+  } else if (!to.camera.empty()) {
+    SceneCamera& camera = cameras_.at(to.camera);
+    if (!camera.live) return;
+    keep_camera(to.camera);
+    camera.camera.base_from_camera = *camera.live;
+    camera.live.reset();
+    ++camera.revision;
   }
-  SceneGoal& goal = goals_.at(target.goal);
-  if (!goal.live) return;
-  keep_goal(target.goal);
-  if (Vec3* position = position_of(goal.goal.payload)) *position = *goal.live;
-  if (auto* spring = std::get_if<PositionSpring>(&goal.spring)) spring->position = *goal.live;
-  if (auto* spring = std::get_if<PoseSpring>(&goal.spring)) spring->position = *goal.live;
-  goal.live.reset();
-  ++goal.revision;
 }
 
 }  // namespace posed

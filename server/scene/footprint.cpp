@@ -24,7 +24,10 @@ bool same_form(const SceneObject&, const SceneObject&) {
   return true;
 }
 bool same_form(const SceneBinding& a, const SceneBinding& b) {
-  return a.binding.to == b.binding.to && a.binding.axes.rotation == b.binding.axes.rotation;
+  return a.binding.to == b.binding.to && a.binding.axes == b.binding.axes;
+}
+bool same_form(const SceneCamera& a, const SceneCamera& b) {
+  return a.camera.relative_to == b.camera.relative_to;
 }
 
 void name(Footprint& print, const SceneFigure& figure) {
@@ -33,18 +36,28 @@ void name(Footprint& print, const SceneFigure& figure) {
 void name(Footprint& print, const SceneObject& object) {
   print.built.insert("/objects/" + object.object.id);
 }
-void name(Footprint& print, const SceneGoal& goal) {
-  print.built.insert("/goals/" + goal.goal.id);
-  print.leans.insert("/figures/" + goal.goal.figure);
-  const GoalBase& base = goal.goal.relative_to;
+void lean(Footprint& print, const GoalBase& base) {
   if (base.kind == GoalBase::Kind::segment) print.leans.insert("/figures/" + base.figure);
   if (base.kind == GoalBase::Kind::object) print.leans.insert("/objects/" + base.object);
 }
+void name(Footprint& print, const SceneGoal& goal) {
+  print.built.insert("/goals/" + goal.goal.id);
+  print.leans.insert("/figures/" + goal.goal.figure);
+  lean(print, goal.goal.relative_to);
+}
+void name(Footprint& print, const SceneCamera& camera) {
+  print.built.insert("/cameras/" + camera.camera.id);
+  lean(print, camera.camera.relative_to);
+}
 void name(Footprint& print, const SceneBinding& binding) {
   const BindingTarget& to = binding.binding.to;
-  const std::string target = to.object.empty() ? "/goals/" + to.goal : "/objects/" + to.object;
+  const std::string target = !to.goal.empty()     ? "/goals/" + to.goal
+                             : !to.object.empty() ? "/objects/" + to.object
+                             : !to.camera.empty() ? "/cameras/" + to.camera
+                                                  : "/figures/" + to.figure;
   print.built.insert("/bindings/" + binding.binding.id);
-  print.built.insert(target + "/binding");  // there is one at most
+  // there is one at most
+  print.built.insert(target + (to.joint.empty() ? "/binding" : "/joints/" + to.joint + "/binding"));
   print.leans.insert(target);
 }
 
@@ -80,6 +93,9 @@ void mark(Footprint& print, const SceneGoal* before, const SceneGoal* after) {
   mark_one(print, before, after);
 }
 void mark(Footprint& print, const SceneBinding* before, const SceneBinding* after) {
+  mark_one(print, before, after);
+}
+void mark(Footprint& print, const SceneCamera* before, const SceneCamera* after) {
   mark_one(print, before, after);
 }
 

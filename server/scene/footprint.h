@@ -23,5 +23,6 @@ void mark(Footprint& print, const SceneFigure* before, const SceneFigure* after)
 void mark(Footprint& print, const SceneObject* before, const SceneObject* after);
 void mark(Footprint& print, const SceneGoal* before, const SceneGoal* after);
 void mark(Footprint& print, const SceneBinding* before, const SceneBinding* after);
+void mark(Footprint& print, const SceneCamera* before, const SceneCamera* after);
 
 }  // namespace posed

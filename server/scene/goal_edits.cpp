@@ -125,9 +125,9 @@ Result<Edited> Scene::set_goal(const GoalEdit& edit, IfRevision if_revision) {
   if (!made) return made.error();
   for (const auto& [binding_id, binding] : bindings_) {
     if (binding.binding.to.goal != id) continue;
-    if (const Status fits = check_bindable(*made, binding.binding.axes); !fits) {
+    if (const Status fits = check_bindable(*made, *binding.binding.axes); !fits) {
       return Error{fits.error().code, "binding " + binding_id + " moves it: " + fits.error().message,
-                   position_of(made->goal.payload) ? "/relative_to" : std::string("/") + name_of(kind),
+                   fits.error().code == "not_available" ? "/relative_to" : std::string("/") + name_of(kind),
                    "remove the binding first"};
     }
   }

@@ -5,17 +5,18 @@ namespace posed {
 Status Holds::check(const std::string& goal, Owner owner, Nanoseconds now) const {
   const auto hold = holds_.find(goal);
   if (hold == holds_.end() || hold->second.owner == owner || now >= hold->second.until) return Ok{};
-  return Error{"held", "goal " + goal + " is held by " + hold->second.name, "/id",
-               "wait: it is free once let go, or after 5 s without an edit; or say \"force\":true"};
+  return Error{"held", what_ + " " + goal + " is held by " + hold->second.name, path_,
+               "wait: it is free once let go, or after 5 s of nothing; or say \"force\":true"};
 }
 
 void Holds::take(const std::string& goal, Owner owner, const std::string& name, Nanoseconds now) {
   holds_.insert_or_assign(goal, Hold{owner, name, now + kIdle});
 }
 
-void Holds::renew(const std::string& goal, Owner owner, Nanoseconds now) {
+void Holds::renew(const std::string& goal, Owner owner, Nanoseconds now, Nanoseconds busy_for) {
   const auto hold = holds_.find(goal);
-  if (hold != holds_.end() && hold->second.owner == owner && now < hold->second.until) hold->second.until = now + kIdle;
+  if (hold != holds_.end() && hold->second.owner == owner && now < hold->second.until)
+    hold->second.until = now + busy_for + kIdle;
 }
 
 void Holds::release_all(Owner owner) {

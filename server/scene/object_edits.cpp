@@ -6,7 +6,7 @@
 namespace posed {
 namespace {
 
-constexpr std::size_t kMostNamed = 8;  // goals in a message
+constexpr std::size_t kMostNamed = 8;  // in a message
 
 bool sane(const Shape& shape) {
   const bool sizes = shape.kind == Shape::Kind::capsule || (shape.b.x >= 0.0 && shape.b.y >= 0.0 && shape.b.z >= 0.0);
@@ -74,11 +74,15 @@ Result<Edited> Scene::remove_object(const std::string& id, IfRevision if_revisio
     if (!goal.rides_on(id)) continue;
     if (++hanging <= kMostNamed) riders += (riders.empty() ? "" : ", ") + goal_id;
   }
+  for (const auto& [camera_id, camera] : cameras_) {
+    if (!camera.rides_on(id)) continue;
+    if (++hanging <= kMostNamed) riders += (riders.empty() ? "" : ", ") + ("camera " + camera_id);
+  }
   if (hanging > kMostNamed) riders += " and " + std::to_string(hanging - kMostNamed) + " more";
   if (hanging > 0)
-    return Error{"in_use", "goals are relative to object " + id + ": " + riders, "/id",
+    return Error{"in_use", "other things are relative to object " + id + ": " + riders, "/id",
                  "remove them or set their relative_to first"};
-  drop_bindings({"", id});
+  drop_bindings([&](const BindingTarget& to) { return to.object == id; });
   keep_object(id);
   objects_.erase(id);
   return Edited{id, count(), 0};

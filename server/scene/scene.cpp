@@ -20,6 +20,7 @@ SceneDocument Scene::document() const {
   for (const auto& [id, goal] : goals_) document.goals.emplace(id, goal.goal);
   for (const auto& [id, object] : objects_) document.objects.emplace(id, object.object);
   for (const auto& [id, binding] : bindings_) document.bindings.emplace(id, binding.binding);
+  for (const auto& [id, camera] : cameras_) document.cameras.emplace(id, camera.camera);
   return document;
 }
 
@@ -46,6 +47,13 @@ Status Scene::load(const SceneDocument& document) {
     if (!goal) return below("/goals/" + token(id), goal.error());
     next.goals_.emplace(id, std::move(*goal));
   }
+  for (const auto& [id, entry] : document.cameras) {
+    Camera named = entry;
+    named.id = id;
+    Result<SceneCamera> camera = check_id(id) ? next.make_camera(std::move(named)) : check_id(id).error();
+    if (!camera) return below("/cameras/" + token(id), camera.error());
+    next.cameras_.emplace(id, std::move(*camera));
+  }
   for (const auto& [id, entry] : document.bindings) {
     Binding named = entry;
     named.id = id;
@@ -71,6 +79,7 @@ void Scene::replace(std::map<std::string, Entity>& entities, std::map<std::strin
 
 void Scene::take_over(Scene next) {
   replace(bindings_, std::move(next.bindings_), &Change::bindings);
+  replace(cameras_, std::move(next.cameras_), &Change::cameras);
   replace(goals_, std::move(next.goals_), &Change::goals);
   replace(objects_, std::move(next.objects_), &Change::objects);
   // Another figure under the same id has a pose of its own.
@@ -92,6 +101,7 @@ void Scene::resume(Revision revision, const std::map<std::string, Revision>& rev
   put(objects_, "/objects/");
   put(goals_, "/goals/");
   put(bindings_, "/bindings/");
+  put(cameras_, "/cameras/");
 }
 
 Result<const SceneFigure*> Scene::find_figure(const std::string& id) const {
@@ -127,17 +137,8 @@ int Scene::clear_goals(const std::string& figure) {
   return removed;
 }
 
-void Scene::drop_bindings(const BindingTarget& to) {
-  for (auto it = bindings_.begin(); it != bindings_.end();) {
-    const auto current = it++;
-    if (current->second.binding.to != to) continue;
-    keep_binding(current->first);
-    bindings_.erase(current);
-  }
-}
-
 void Scene::drop_goal(const std::string& id) {
-  drop_bindings({id, ""});
+  drop_bindings([&](const BindingTarget& to) { return to.goal == id; });
   keep_goal(id);
   goals_.erase(id);
 }

@@ -1,5 +1,6 @@
-// The shared document: figures with their joint values, goals, bindings. Every edit is checked whole before anything
-// changes, counts up the scene's revision and the entity's own, and says both. One thread (the station loop); no I/O.
+// The shared document: figures with their joint values, goals, objects, cameras, bindings. Every edit is checked whole
+// before anything changes, counts up the scene's revision and the entity's own, and says both. One thread (the station
+// loop); no I/O.
 //
 // Errors carry paths relative to the edit ("/at"); `if_revision` is compared with the entity's own revision, 0 meaning
 // that it must not exist yet ("revision_mismatch").
@@ -40,6 +41,7 @@ class Scene {
   const std::map<std::string, SceneGoal>& goals() const { return goals_; }
   const std::map<std::string, SceneObject>& objects() const { return objects_; }
   const std::map<std::string, SceneBinding>& bindings() const { return bindings_; }
+  const std::map<std::string, SceneCamera>& cameras() const { return cameras_; }
 
   SceneDocument document() const;
   // Replaces everything, or nothing where the document is wrong.
@@ -53,11 +55,14 @@ class Scene {
   Result<Edited> set_goal(const GoalEdit& edit, IfRevision if_revision);
   Result<Edited> set_object(const ObjectEdit& edit, IfRevision if_revision);
   Result<Edited> set_binding(const BindingEdit& edit, IfRevision if_revision);
-  Result<Edited> remove_figure(const std::string& id, IfRevision if_revision);  // and goals of it or relative to it
-  Result<Edited> remove_goal(const std::string& id, IfRevision if_revision);    // and what is bound to it
-  // Refused while goals are relative to it ("in_use"); what is bound to it goes with it.
+  Result<Edited> set_camera(const CameraEdit& edit, IfRevision if_revision);
+  // And goals of it or relative to it, and what is bound to its joints; refused while cameras are ("in_use").
+  Result<Edited> remove_figure(const std::string& id, IfRevision if_revision);
+  Result<Edited> remove_goal(const std::string& id, IfRevision if_revision);  // and what is bound to it
+  // Refused while goals or cameras are relative to it ("in_use"); what is bound to it goes with it.
   Result<Edited> remove_object(const std::string& id, IfRevision if_revision);
   Result<Edited> remove_binding(const std::string& id, IfRevision if_revision);
+  Result<Edited> remove_camera(const std::string& id, IfRevision if_revision);  // and what is bound to it
   int clear_goals(const std::string& figure);  // of all figures where empty; counts one revision
   // A pose set by hand. q is checked.
   Result<Edited> set_q(const std::string& figure, std::vector<double> q, IfRevision if_revision);
@@ -86,9 +91,13 @@ class Scene {
   // Whether the document has something of this path: "/goals/g1".
   bool has(const std::string& path) const;
 
-  // A sensor's motion: moves what is bound to it or relative to it. No edit, no revision. True where a target moved.
-  // Does not allocate.
-  bool follow(const Frame& frame);
+  // A sensor's motion: moves what is bound to it or relative to it. No edit, no revision. Does not allocate.
+  struct Followed {
+    bool pose = false;     // something that figures are pulled by has moved
+    bool cameras = false;  // cameras have
+    explicit operator bool() const { return pose || cameras; }
+  };
+  Followed follow(const Frame& frame);
   // The solver's answer for a figure. No edit.
   void settle(const std::string& figure, const std::vector<double>& q);
 
@@ -100,14 +109,27 @@ class Scene {
   static Result<SceneObject> make_object(Object object);
   Result<SceneBinding> make_binding(Binding binding) const;
   Result<std::string> default_id(const GoalEdit& edit) const;  // FIGURE.SEGMENT.KIND
+  Result<SceneCamera> make_camera(Camera camera) const;
   static Status check_bindable(const SceneGoal& goal, const Axes& axes);
-  Status check_target(const BindingTarget& to, const Axes& axes) const;
-  void let_go(const BindingTarget& target);
-  bool place_target(const BindingTarget& to, const Axes& axes, const Transform& wanted);
-  Transform target_of(const BindingTarget& to) const;
-  bool carry(const SceneObject& object);
+  Result<Axes> axes_of(const BindingTarget& to) const;
+  Status find_target(SceneBinding& binding) const;
+  Result<std::map<std::string, SceneBinding>> refit_bindings(const std::string& figure, const SceneFigure& next) const;
+  Result<std::map<std::string, SceneCamera>> refit_cameras(const std::string& figure, const SceneFigure& next) const;
+  void let_go(const SceneBinding& binding);
+  void follow(SceneBinding& binding, const Sample& sample, Nanoseconds t_ns, Followed& followed);
+  void place_target(SceneBinding& binding, const Transform& wanted, Followed& followed);
+  Transform target_of(const SceneBinding& binding) const;
+  Followed carry(const SceneObject& object);
   void drop_goal(const std::string& id);
-  void drop_bindings(const BindingTarget& to);
+  template <class Hits>
+  void drop_bindings(Hits hits) {  // where hits(target)
+    for (auto it = bindings_.begin(); it != bindings_.end();) {
+      const auto current = it++;
+      if (!hits(current->second.binding.to)) continue;
+      keep_binding(current->first);
+      bindings_.erase(current);
+    }
+  }
   template <class Entity>
   void replace(std::map<std::string, Entity>& entities, std::map<std::string, Entity> next,
                std::map<std::string, ChangedEntity<Entity>> Change::*part);
@@ -135,6 +157,7 @@ class Scene {
   void keep_object(const std::string& id) { keep(&Change::objects, objects_, id); }
   void keep_goal(const std::string& id) { keep(&Change::goals, goals_, id); }
   void keep_binding(const std::string& id) { keep(&Change::bindings, bindings_, id); }
+  void keep_camera(const std::string& id) { keep(&Change::cameras, cameras_, id); }
   void keep_pose(const std::string& figure);
   std::optional<Conflict> changed_since(const Change& change) const;
   std::optional<Conflict> refit(const Change& change);
@@ -146,6 +169,7 @@ class Scene {
   std::map<std::string, SceneGoal> goals_;
   std::map<std::string, SceneObject> objects_;
   std::map<std::string, SceneBinding> bindings_;
+  std::map<std::string, SceneCamera> cameras_;
 };
 
 }  // namespace posed

@@ -1,5 +1,7 @@
 #include "server/scene/spring_goals.h"
 
+#include <algorithm>
+
 namespace posed {
 
 SpringGoal spring_goal(const SceneGoal& goal, const Transform& world_from_base) {
@@ -25,8 +27,28 @@ void follow_sensors(const SceneGoal& goal, SpringGoal& spring) {
     spring.enabled = spring.enabled && goal.world_from_base;
     if (goal.world_from_base) spring.world_from_base = *goal.world_from_base;
   }
-  if (auto* position = std::get_if<PositionSpring>(&spring.spring)) position->position = goal.target();
-  if (auto* pose = std::get_if<PoseSpring>(&spring.spring)) pose->position = goal.target();
+  if (goal.live) place_spring(*goal.live, spring.spring);
+}
+
+void place_spring(const Transform& place, Spring& spring) {
+  if (auto* position = std::get_if<PositionSpring>(&spring)) position->position = place.position;
+  if (auto* orientation = std::get_if<OrientationSpring>(&spring)) orientation->rotation = place.rotation;
+  if (auto* pose = std::get_if<PoseSpring>(&spring)) *pose = {place.position, place.rotation};
+}
+
+SpringGoal joint_spring(const SceneBinding& binding, const BodyTree& tree) {
+  SpringGoal spring;
+  const auto size = static_cast<std::size_t>(q_size(tree.joint(binding.joint).type));
+  spring.spring = PostureSpring{{binding.joint}, std::vector<double>(size)};
+  spring.priority = kJointPriority;
+  follow_sensor(binding, spring);
+  return spring;
+}
+
+void follow_sensor(const SceneBinding& binding, SpringGoal& spring) {
+  spring.enabled = binding.moves_joint;
+  auto& values = std::get<PostureSpring>(spring.spring).values;
+  std::copy_n(binding.share.begin(), values.size(), values.begin());
 }
 
 std::vector<SpringGoal> pin_goals(const SceneFigure& figure) {

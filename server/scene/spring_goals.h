@@ -13,6 +13,15 @@ namespace posed {
 // a sensor is off until the sensor has been heard.
 SpringGoal spring_goal(const SceneGoal& goal, const Transform& world_from_base = {});
 
+// Puts a position, orientation or pose where the place is; leaves others.
+void place_spring(const Transform& place, Spring& spring);
+
+// A joint that a sensor moves takes its value after all pins and before all goals.
+inline constexpr int kJointPriority = -1000;
+SpringGoal joint_spring(const SceneBinding& binding, const BodyTree& tree);
+// Brings it up to date. Does not allocate.
+void follow_sensor(const SceneBinding& binding, SpringGoal& spring);
+
 // Brings up to date what sensors move, in a goal made by spring_goal. Does not allocate.
 void follow_sensors(const SceneGoal& goal, SpringGoal& spring);
 

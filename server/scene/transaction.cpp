@@ -103,6 +103,8 @@ template void Scene::keep<SceneObject>(Changed<SceneObject> Change::*, const Ent
 template void Scene::keep<SceneGoal>(Changed<SceneGoal> Change::*, const Entities<SceneGoal>&, const std::string&);
 template void Scene::keep<SceneBinding>(Changed<SceneBinding> Change::*, const Entities<SceneBinding>&,
                                         const std::string&);
+template void Scene::keep<SceneCamera>(Changed<SceneCamera> Change::*, const Entities<SceneCamera>&,
+                                       const std::string&);
 
 void Scene::keep_pose(const std::string& id) {
   if (!open_) return;
@@ -130,6 +132,7 @@ Change Scene::commit() {
   finish(change.objects, objects_, revision_, change.print);
   finish(change.goals, goals_, revision_, change.print);
   finish(change.bindings, bindings_, revision_, change.print);
+  finish(change.cameras, cameras_, revision_, change.print);
 
   std::set<std::string> concerned;
   const auto concern_goal = [&](const std::string& id) {
@@ -146,8 +149,12 @@ Change Scene::commit() {
       concern(goal, concerned);
   }
   for (const auto& [id, binding] : change.bindings) {
-    if (binding.other) concern_goal(binding.other->binding.to.goal);
-    if (const auto now = bindings_.find(id); now != bindings_.end()) concern_goal(now->second.binding.to.goal);
+    const auto concern_target = [&](const BindingTarget& to) {
+      concern_goal(to.goal);
+      if (!to.joint.empty()) concerned.insert(to.figure);
+    };
+    if (binding.other) concern_target(binding.other->binding.to);
+    if (const auto now = bindings_.find(id); now != bindings_.end()) concern_target(now->second.binding.to);
   }
   for (const std::string& id : concerned) {
     const auto figure = figures_.find(id);
@@ -187,6 +194,7 @@ void Scene::rollback() {
   restore(open.before.objects, objects_);
   restore(open.before.goals, goals_);
   restore(open.before.bindings, bindings_);
+  restore(open.before.cameras, cameras_);
   revision_ = open.revision;
   for (const auto& [id, object] : objects_) carry(object);
 }
@@ -196,6 +204,7 @@ std::optional<Conflict> Scene::changed_since(const Change& change) const {
   if (auto c = compare(change.objects, objects_, "/objects/")) return c;
   if (auto c = compare(change.goals, goals_, "/goals/")) return c;
   if (auto c = compare(change.bindings, bindings_, "/bindings/")) return c;
+  if (auto c = compare(change.cameras, cameras_, "/cameras/")) return c;
   for (const auto& [id, pose] : change.poses) {
     const auto figure = figures_.find(id);
     if (!pose.asked || (figure != figures_.end() && figure->second.posed == pose.expected_q)) continue;
@@ -213,6 +222,7 @@ bool Scene::has(const std::string& path) const {
   return kind == "/figures/"   ? figures_.contains(id)
          : kind == "/objects/" ? objects_.contains(id)
          : kind == "/goals/"   ? goals_.contains(id)
+         : kind == "/cameras/" ? cameras_.contains(id)
                                : bindings_.contains(id);
 }
 
@@ -230,6 +240,7 @@ void Scene::exchange(Change& change) {
   swap(change.objects, objects_);
   swap(change.goals, goals_);
   swap(change.bindings, bindings_);
+  swap(change.cameras, cameras_);
   for (auto& [id, pose] : change.poses) {
     const auto now = figures_.find(id);
     const auto was = present.find(id);
@@ -256,10 +267,15 @@ std::optional<Conflict> Scene::refit(const Change& change) {
   const auto gone = [](const char* what, const std::string& id) {
     return Conflict{std::string("/") + what + "s/" + id, true};
   };
-  std::set<std::string> bound;  // of goals and objects
-  for (const auto& [id, binding] : bindings_) bound.insert(binding.binding.to.goal + "/" + binding.binding.to.object);
+  std::set<std::string> bound;  // paths of goals, objects and cameras
+  for (const auto& [id, binding] : bindings_) {
+    const BindingTarget& to = binding.binding.to;
+    bound.insert(!to.goal.empty()     ? "/goals/" + to.goal
+                 : !to.object.empty() ? "/objects/" + to.object
+                                      : "/cameras/" + to.camera);
+  }
   for (auto& [id, goal] : goals_) {
-    if (!bound.contains(id + "/")) goal.live.reset();
+    if (!bound.contains("/goals/" + id)) goal.live.reset();
     const GoalBase& base = goal.goal.relative_to;
     if (!figures_.contains(goal.goal.figure) ||
         (base.kind == GoalBase::Kind::segment && !figures_.contains(base.figure)) ||
@@ -286,21 +302,41 @@ std::optional<Conflict> Scene::refit(const Change& change) {
     goal = std::move(*again);
   }
   for (auto& [id, object] : objects_) {
-    if (!bound.contains("/" + id)) object.live.reset();
+    if (!bound.contains("/objects/" + id)) object.live.reset();
     carry(object);
+  }
+  for (auto& [id, camera] : cameras_) {
+    if (!bound.contains("/cameras/" + id)) camera.live.reset();
+    const GoalBase& base = camera.camera.relative_to;
+    const Result<SceneCamera> again = make_camera(camera.camera);
+    if (again) {
+      camera.base_segment = again->base_segment;
+      if (base.kind == GoalBase::Kind::object) camera.world_from_base = again->world_from_base;
+      continue;
+    }
+    if (!change.cameras.contains(id)) return Conflict{"/cameras/" + id, false};
+    return base.kind == GoalBase::Kind::object ? gone("object", base.object) : gone("figure", base.figure);
   }
   for (auto& [id, binding] : bindings_) {
     const BindingTarget& to = binding.binding.to;
-    if (make_binding(binding.binding)) {
-      if (change.bindings.contains(id)) binding.anchor.reset();
+    if (const Result<SceneBinding> again = make_binding(binding.binding)) {
+      binding.joint = again->joint;
+      if (change.bindings.contains(id)) {
+        binding.anchor.reset();
+        binding.rest.reset();
+        binding.moves_joint = false;
+      }
       continue;
     }
     if (!change.bindings.contains(id)) return Conflict{"/bindings/" + id, false};
-    if (to.object.empty() && !goals_.contains(to.goal)) return gone("goal", to.goal);
+    if (!to.goal.empty() && !goals_.contains(to.goal)) return gone("goal", to.goal);
     if (!to.object.empty() && !objects_.contains(to.object)) return gone("object", to.object);
+    if (!to.camera.empty() && !cameras_.contains(to.camera)) return gone("camera", to.camera);
+    if (!to.joint.empty()) return gone("figure", to.figure);
     for (const auto& [other_id, other] : bindings_) {
       if (other_id != id && other.binding.to == to) return Conflict{"/bindings/" + other_id, false};
     }
+    if (!to.camera.empty()) return Conflict{"/cameras/" + to.camera, false};
     return Conflict{"/goals/" + to.goal, false};
   }
   return {};
@@ -313,6 +349,7 @@ std::optional<Conflict> Scene::revert(Change& change) {
   for (const auto& [id, changed] : change.objects) keep_object(id);
   for (const auto& [id, changed] : change.goals) keep_goal(id);
   for (const auto& [id, changed] : change.bindings) keep_binding(id);
+  for (const auto& [id, changed] : change.cameras) keep_camera(id);
   for (const auto& [id, changed] : change.poses) {
     if (figures_.contains(id)) keep_pose(id);
   }

@@ -43,6 +43,12 @@ void forward_kinematics(const BodyTree& tree, std::span<const double> q, std::sp
   }
 }
 
+Quat world_rotation(const BodyTree& tree, int i, std::span<const double> q) {
+  Quat below = quat_identity();
+  for (; i >= 0; i = tree.parent(i)) below = place_segment(tree, i, q, {}).rotation * below;
+  return below;
+}
+
 void normalise_quaternions(const BodyTree& tree, std::span<double> q) {
   each_quaternion(tree, [&](std::size_t first) {
     const Quat given = quat_from_xyzw(q.subspan(first, 4));

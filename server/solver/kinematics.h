@@ -20,6 +20,9 @@ namespace posed {
 // World transform of segment i, given its parent's (ignored for the root).
 Transform place_segment(const BodyTree& tree, int i, std::span<const double> q, const Transform& world_from_parent);
 
+// How segment i lies in the world. Does not allocate.
+Quat world_rotation(const BodyTree& tree, int i, std::span<const double> q);
+
 // The reach tree's solver bends these freely.
 inline constexpr bool bends_as_ball(JointType type) {
   return type == JointType::ball || type == JointType::universal;

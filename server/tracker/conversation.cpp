@@ -22,8 +22,13 @@ constexpr std::chrono::milliseconds kFirstPause = 1s, kLongestPause = 30s;
 }  // namespace
 
 Conversation::Conversation(Line& line, Session& session, StatusBoard& board, Capture* capture,
-                           const std::atomic<bool>& stopping)
-    : line_(line), session_(session), board_(board), capture_(capture), stopping_(stopping) {}
+                           const PreferenceBox& preferences, const std::atomic<bool>& stopping)
+    : line_(line),
+      session_(session),
+      board_(board),
+      capture_(capture),
+      preferences_(preferences),
+      stopping_(stopping) {}
 
 void Conversation::run() {
   Milliseconds pause = kFirstPause;
@@ -32,11 +37,13 @@ void Conversation::run() {
     complaint_.clear();
     trouble_.clear();
     begun_ = false;
+    heeded_ = preferences_.version();
     const std::uint64_t before = board_.frames();
     const bool set_up = session_.set_up(*this);
     if (set_up && session_.may_rest()) return rest();
     if (set_up) listen(kSilence);
     if (!alive()) break;
+    if (asked_anew()) continue;
     if (board_.frames() != before) pause = kFirstPause;
     board_.set(State::silent, all_trouble());
     // It may come back by itself, as when a sensor is plugged in; only then is it started anew.
@@ -94,7 +101,7 @@ void Conversation::complain(std::string message) {
 
 void Conversation::listen(Milliseconds patience) {
   auto last = Steady::now();
-  while (alive() && Steady::now() - last < patience) {
+  while (alive() && !asked_anew() && Steady::now() - last < patience) {
     line_.wait(100ms);
     const std::uint64_t before = board_.frames();
     hear();

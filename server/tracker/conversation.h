@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "server/tracker/line.h"
+#include "server/tracker/preferences.h"
 #include "server/tracker/session.h"
 #include "server/tracker/status_board.h"
 
@@ -22,10 +23,12 @@ class Conversation {
   using Milliseconds = std::chrono::milliseconds;
 
   // `capture` may be null.
-  Conversation(Line& line, Session& session, StatusBoard& board, Capture* capture, const std::atomic<bool>& stopping);
+  Conversation(Line& line, Session& session, StatusBoard& board, Capture* capture, const PreferenceBox& preferences,
+               const std::atomic<bool>& stopping);
   void run();  // until `stopping` or the line is in trouble
 
   // For sessions.
+  Preferences preferences() const { return preferences_.get(); }  // of this set-up
   bool alive() const { return !stopping_ && line_.trouble() == Line::Trouble::none; }
   bool write(std::string_view bytes) { return line_.write(bytes); }
   // Sends `stops` one after the other until the device is quiet; what it says meanwhile is thrown away. A program that
@@ -39,8 +42,10 @@ class Conversation {
   void nominal_rate(double hz) { board_.set_rate(hz); }
 
  private:
-  void listen(Milliseconds patience);  // while frames come; returns when none has come for so long
-  void rest();                         // as long as the line lasts
+  // While frames come; returns when none has come for so long, or when other things are asked of the device.
+  void listen(Milliseconds patience);
+  bool asked_anew() const { return preferences_.version() != heeded_; }
+  void rest();  // as long as the line lasts
   void hear();
   std::string all_trouble() const;
 
@@ -48,8 +53,10 @@ class Conversation {
   Session& session_;
   StatusBoard& board_;
   Capture* capture_;
+  const PreferenceBox& preferences_;
   const std::atomic<bool>& stopping_;
-  bool begun_ = false;  // since the last set-up began
+  std::uint64_t heeded_ = 0;  // of the preferences: that the last set-up knew
+  bool begun_ = false;        // since the last set-up began
   std::string trouble_;
   std::string complaint_;
 };

@@ -22,6 +22,12 @@ Driver::~Driver() {
   stop();
 }
 
+posed::Status Driver::configure(const Settings& settings) {
+  if (posed::Status refused = refuse(settings, parts_.kind, parts_.can); !refused) return refused;
+  preferences_.take(settings, parts_.defaults);
+  return Ok{};
+}
+
 void Driver::start(Sink sink) {
   thread_ = std::thread([this, sink = std::move(sink)]() mutable { run(std::move(sink)); });
 }
@@ -43,7 +49,7 @@ void Driver::run(Sink sink) {
       const std::uint64_t before = board.frames();
       const auto session = parts_.make_session();
       Capture* const capture = parts_.capture && parts_.capture->good() ? parts_.capture.get() : nullptr;
-      Conversation(*opened.line, *session, board, capture, stopping_).run();
+      Conversation(*opened.line, *session, board, capture, preferences_, stopping_).run();
       if (board.frames() != before) pause = kFirstRest;
       opened = {};
       if (!stopping_) board.set(State::searching, "the line to the tracker broke: is its cable loose?");

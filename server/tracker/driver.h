@@ -11,6 +11,7 @@
 
 #include "server/tracker/capture/capture.h"
 #include "server/tracker/port.h"
+#include "server/tracker/preferences.h"
 #include "server/tracker/session.h"
 #include "server/tracker/tracker.h"
 
@@ -25,6 +26,8 @@ struct DriverParts {
   std::unique_ptr<Port> port;
   std::unique_ptr<Capture> capture;                        // null: none
   std::function<std::unique_ptr<Session>()> make_session;  // called on the driver's thread, once for each opened line
+  Abilities can = {};                                      // that configure() may ask for
+  Preferences defaults = {};                               // of the family, for what it can
 };
 
 class Driver final : public Tracker {
@@ -34,6 +37,7 @@ class Driver final : public Tracker {
 
   const std::string& id() const override { return parts_.id; }
   const std::string& kind() const override { return parts_.kind; }
+  posed::Status configure(const Settings& settings) override;
   void start(Sink sink) override;
   void stop() override;
 
@@ -42,6 +46,7 @@ class Driver final : public Tracker {
   void rest(StatusBoard& board, std::chrono::milliseconds pause);
 
   DriverParts parts_;
+  PreferenceBox preferences_;
   std::atomic<bool> stopping_{false};
   std::thread thread_;
 };

@@ -36,6 +36,10 @@ bool parse_number(std::string_view text, T& value) {
   return error == std::errc{} && end == text.data() + text.size();
 }
 
+std::string id_of(std::string_view kind, const Wishes& wishes) {
+  return wishes.options.id.empty() ? std::string(kind) : wishes.options.id;
+}
+
 Made make_simulated(const Wishes& wishes) {
   const std::string_view arg = wishes.arg;
   SimulatedOptions options;
@@ -48,6 +52,7 @@ Made make_simulated(const Wishes& wishes) {
     return Error{"invalid_params", "simulated:" + std::string(arg) + " is not SEED or SEED@RATE", "",
                  "whole numbers, RATE from 1 to 1000, as in simulated:7@120"};
   }
+  options.id = id_of("simulated", wishes);
   return std::unique_ptr<Tracker>(std::make_unique<SimulatedTracker>(std::move(options), wishes.now));
 }
 
@@ -102,10 +107,11 @@ std::string capture_path(const std::string& folder, std::string_view id) {
 }
 
 Made make_driver(std::string_view kind, double rate_hz, std::unique_ptr<Port> port, const Wishes& wishes,
-                 MakeSession make_session) {
-  DriverParts parts{std::string(kind), std::string(kind), rate_hz, std::move(port), nullptr, std::move(make_session)};
+                 MakeSession make_session, Abilities can = {}, Preferences defaults = {}) {
+  DriverParts parts{id_of(kind, wishes), std::string(kind),  rate_hz, std::move(port), nullptr, std::move(make_session),
+                    std::move(can),      std::move(defaults)};
   if (!wishes.options.capture_folder.empty()) {
-    auto capture = Capture::create(capture_path(wishes.options.capture_folder, kind));
+    auto capture = Capture::create(capture_path(wishes.options.capture_folder, id_of(kind, wishes)));
     if (!capture) return capture.error();
     parts.capture = std::move(*capture);
   }
@@ -116,11 +122,13 @@ Made make_liberty_family(const LibertyFamily& family, const Wishes& wishes) {
   const auto place = parse_place(family.kind, wishes.arg, true, true, 115200);
   if (!place) return place.error();
   LibertyOptions options;
-  options.id = family.kind;
+  options.id = id_of(family.kind, wishes);
   options.family = family;
   options.baud = place->baud;
-  return make_driver(family.kind, family.rate_hz, port_at(*place, family.kind, wishes.now), wishes,
-                     [options] { return std::make_unique<LibertySession>(options); });
+  return make_driver(
+      family.kind, family.rate_hz, port_at(*place, family.kind, wishes.now), wishes,
+      [options] { return std::make_unique<LibertySession>(options); }, liberty_abilities(family),
+      liberty_defaults(family));
 }
 
 Made make_liberty(const Wishes& wishes) {
@@ -135,6 +143,7 @@ Made make_fastrak(const Wishes& wishes) {
   const auto place = parse_place("fastrak", wishes.arg, true, true, 115200);
   if (!place) return place.error();
   FastrakOptions options;
+  options.id = id_of("fastrak", wishes);
   options.baud = place->baud;
   return make_driver("fastrak", 120, port_at(*place, "fastrak", wishes.now), wishes,
                      [options] { return std::make_unique<FastrakSession>(options); });
@@ -144,6 +153,7 @@ Made make_isotrak(const Wishes& wishes) {
   const auto place = parse_place("isotrak", wishes.arg, false, true, 19200);
   if (!place) return place.error();
   IsotrakOptions options;
+  options.id = id_of("isotrak", wishes);
   options.baud = place->baud;
   return make_driver("isotrak", 60, port_at(*place, "isotrak", wishes.now), wishes,
                      [options] { return std::make_unique<IsotrakSession>(options); });
@@ -152,15 +162,17 @@ Made make_isotrak(const Wishes& wishes) {
 Made make_viper(const Wishes& wishes) {
   const auto place = parse_place("viper", wishes.arg, true, false, 0);
   if (!place) return place.error();
+  ViperOptions options;
+  options.id = id_of("viper", wishes);
   return make_driver("viper", 240, port_at(*place, "viper", wishes.now), wishes,
-                     [] { return std::make_unique<ViperSession>(ViperOptions{}); });
+                     [options] { return std::make_unique<ViperSession>(options); });
 }
 
 Made make_spacemouse(const Wishes& wishes) {
   const auto place = parse_place("spacemouse", wishes.arg, true, false, 0);
   if (!place) return place.error();
   return make_driver("spacemouse", 60, std::make_unique<SpacemousePort>(wishes.now), wishes,
-                     [] { return std::make_unique<SpacemouseSession>("spacemouse"); });
+                     [id = id_of("spacemouse", wishes)] { return std::make_unique<SpacemouseSession>(id); });
 }
 
 Made make_replay(const Wishes& wishes) {

@@ -14,6 +14,7 @@ namespace posed::tracker {
 
 struct TrackerOptions {
   std::string capture_folder;  // where each tracker on a line writes what it hears (ID-UTC.capture); empty: nowhere
+  std::string id = {};         // empty: the kind
 };
 
 // `spec` is KIND[:ARG], as after --tracker:
@@ -23,8 +24,9 @@ struct TrackerOptions {
 //   viper[:usb]
 //   spacemouse[:usb]          through hidraw
 //   replay:FILE[@fast]        a capture, at its own pace or flat out
-// The tracker's id is its kind; a replay's is that of the tracker that was captured. Errors: invalid_params for a word
-// that is none and a place that cannot be, not_available for a file that cannot be read or written; each with a hint.
+// The tracker's id is its kind, or TrackerOptions::id; a replay's is that of the tracker that was captured. Errors:
+// invalid_params for a word that is none and a place that cannot be, not_available for a file that cannot be read or
+// written; each with a hint.
 Result<std::unique_ptr<Tracker>> make_tracker(std::string_view spec, TimeSource now,
                                               const TrackerOptions& options = {});
 

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "common/frame.h"
+#include "common/result.h"
+#include "server/tracker/settings.h"
 
 namespace posed::tracker {
 
@@ -33,8 +35,11 @@ class Tracker {
   virtual ~Tracker() = default;                 // stops
   virtual const std::string& id() const = 0;    // "simulated": the device part of its sensors' ids
   virtual const std::string& kind() const = 0;  // "liberty"
-  virtual void start(Sink sink) = 0;            // once
-  virtual void stop() = 0;                      // joins the thread; no call to the sink after it returns
+  // What its device is to do differently from now on; while it is away, when it is back. Called on any one thread.
+  // Errors: "not_available" for what the family can not do, with the field as path ("/rate_hz").
+  virtual posed::Status configure(const Settings& settings);
+  virtual void start(Sink sink) = 0;  // once
+  virtual void stop() = 0;            // joins the thread; no call to the sink after it returns
 };
 
 }  // namespace posed::tracker

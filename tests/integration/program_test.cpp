@@ -127,7 +127,8 @@ TEST(Program, WhatIsWrongAtTheStartIsOneClearLine) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> mistakes = {
       {{"--tracker", "wand"}, "wand"},
       {{"--tracker", "isotrak"}, "isotrak"},
-      {{"--tracker", "simulated", "--tracker", "simulated"}, "two trackers"},
+      {{"--tracker", "a=simulated", "--tracker", "a=simulated"}, "two trackers"},
+      {{"--tracker", "a b=simulated"}, "is no name"},
       {{"--scene.template", "paper/siting"}, "paper/sitting"},
       {{"--data", "/proc/nothing/here"}, "--data"},
   };

@@ -24,6 +24,23 @@ TEST(DecodeParams, WrongTypesAreToldWithTheirPath) {
       "wrong_type", "/params/document/segments/0/name");
 }
 
+TEST(DecodeParams, WhatSensorsMayDo) {
+  expect_error(call("binding.set", R"({"to":{}})"), "missing_field", "/params/to");
+  expect_error(call("binding.set", R"({"to":{"goal":"g1","camera":"main"}})"), "invalid_params", "/params/to");
+  expect_error(call("binding.set", R"({"to":{"goal":"g1","figure":"body"}})"), "invalid_params", "/params/to/figure");
+  expect_error(call("binding.set", R"({"clutch":{"button":"left"}})"), "wrong_type", "/params/clutch/button");
+  expect_error(call("binding.set", R"({"filter":{"euro":1}})"), "unknown_field", "/params/filter/euro");
+  expect_error(call("joint.set", R"({"joint":"waist","hold":"yes"})"), "wrong_type", "/params/hold");
+  expect_error(call("tracker.touch", R"({"sensor":"liberty:1","for_ms":0})"), "out_of_range", "/params/for_ms");
+  expect_error(call("tracker.align", R"({"tracker":"liberty","points":[{"source":[0,0,0]}]})"), "missing_field",
+               "/params/points/0/world");
+  expect_error(call("tracker.configure", R"({"tracker":"liberty","position_filter":"strong"})"), "wrong_type",
+               "/params/position_filter");
+  EXPECT_TRUE(params_of<JointSet>("joint.set", R"({"joint":"waist","hold":false})").hold.is_reset());
+  EXPECT_FALSE(params_of<JointSet>("joint.set", R"({"joint":"waist","hold":true})").hold.value()->weight);
+  EXPECT_EQ(params_of<JointSet>("joint.set", R"({"joint":"waist","hold":3})").hold.value()->weight, 3.0);
+}
+
 TEST(DecodeParams, NumbersOutOfRange) {
   expect_error(call("stream.ack", R"({"stream":"pose","seq":-1})"), "out_of_range", "/params/seq");
   expect_error(call("solver.set", R"({"iterations":3000000000})"), "out_of_range", "/params/iterations");
@@ -75,7 +92,7 @@ TEST(DecodeParams, WordsThatAreNotKnown) {
   const BadRequest bad = refused(call("stream.subscribe", R"({"stream":"poses"})"));
   EXPECT_EQ(bad.error.code, "invalid_params");
   EXPECT_EQ(bad.error.path, "/params/stream");
-  EXPECT_EQ(bad.error.hint, "one of: pose tracker scene stats");
+  EXPECT_EQ(bad.error.hint, "one of: pose tracker scene stats camera");
   expect_error(call("binding.set", R"({"mode":"both"})"), "invalid_params", "/params/mode");
   expect_error(call("binding.set", R"({"axes":["x","w"]})"), "invalid_params", "/params/axes");
   expect_error(call("pose.reset", R"({"to":"sitting"})"), "invalid_params", "/params/to");
@@ -83,11 +100,6 @@ TEST(DecodeParams, WordsThatAreNotKnown) {
 
 TEST(DecodeParams, WhatIsReservedIsNotAvailable) {
   expect_error(call("goal.set", R"({"scene":"other"})"), "not_available", "/params/scene");
-  expect_error(call("binding.set", R"({"to":{"joint":"waist"}})"), "not_available", "/params/to/joint");
-  expect_error(call("binding.set", R"({"axes":["x","rx"]})"), "not_available", "/params/axes");
-  expect_error(call("binding.set", R"({"clutch":{"button":0}})"), "not_available", "/params/clutch");
-  expect_error(call("binding.set", R"({"filter":{}})"), "not_available", "/params/filter");
-  expect_error(call("joint.set", R"({"joint":"waist","hold":true})"), "not_available", "/params/hold");
   expect_error(call("session.hello", R"({"protocol":2})"), "not_available", "/params/protocol");
   expect_error(call("stream.subscribe", R"({"stream":"pose","encoding":"bson"})"), "invalid_params",
                "/params/encoding");

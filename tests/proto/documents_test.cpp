@@ -38,13 +38,22 @@ SceneDocument rich_scene() {
   scene.objects["chair"] = object;
   Binding carrying;
   carrying.sensor = "liberty:3";
-  carrying.to = BindingTarget{"", "chair"};
-  carrying.axes = default_axes(carrying.to);
+  carrying.to = BindingTarget{"", "chair", "", "", ""};
+  carrying.axes = kAllAxes;
+  carrying.clutch = Clutch{1};
+  carrying.offset = SensorOffset{{0.1, 0, 1.0 / 3.0}, quat_from_xyzw(0.5, 0.5, 0.5, 0.5)};
+  carrying.filter = BindingFilter{OneEuro{0.5, 3.0, 2.0}, 12.5};
+  Camera camera;
+  camera.base_from_camera = {{0.1, 1.0 / 3.0, 0}, quat_from_xyzw(0.5, 0.5, 0.5, 0.5)};
+  camera.relative_to = {GoalBase::Kind::object, "", "", "", "chair"};
+  camera.fov_y = 0.7;
+  camera.user = "[2]";
+  scene.cameras["main"] = camera;
   scene.bindings["b2"] = carrying;
   Binding binding;
   binding.sensor = "liberty:2";
-  binding.to = BindingTarget{"g1", ""};
-  binding.axes = {false, true, false};
+  binding.to = BindingTarget{"g1", "", "", "", ""};
+  binding.axes = Axes{false, true, false};
   binding.mode = Binding::Mode::relative;
   binding.scale = -0.1;
   scene.bindings["b1"] = binding;
@@ -90,7 +99,7 @@ TEST(Documents, ASceneComesBackToTheLastDigit) {
   EXPECT_EQ(back->goals.at("g1").at, scene.goals.at("g1").at);
   EXPECT_FALSE(back->goals.at("g1").enabled);
   EXPECT_EQ(back->goals.at("g1").user, "null");
-  EXPECT_FALSE(back->bindings.at("b1").axes.x);
+  EXPECT_FALSE(back->bindings.at("b1").axes->x);
   EXPECT_EQ(back->bindings.at("b1").scale, -0.1);
   // Set out for reading it is the same document.
   EXPECT_EQ(encode_scene(*decode_scene(encode_scene(scene, 2))), text);

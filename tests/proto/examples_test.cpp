@@ -43,6 +43,10 @@ const std::map<std::string, SayAnew> kResults{{"session.hello", said_anew<HelloR
                                               {"binding.get", said_anew<BindingResult>},
                                               {"binding.list", said_anew<BindingListResult>},
                                               {"binding.remove", said_anew<EditResult>},
+                                              {"camera.set", said_anew<EditResult>},
+                                              {"camera.get", said_anew<CameraResult>},
+                                              {"camera.list", said_anew<CameraListResult>},
+                                              {"camera.remove", said_anew<EditResult>},
                                               {"joint.set", said_anew<EditResult>},
                                               {"joint.get", said_anew<JointResult>},
                                               {"pose.get", said_anew<PoseResult>},
@@ -60,6 +64,14 @@ const std::map<std::string, SayAnew> kResults{{"session.hello", said_anew<HelloR
                                               {"scene.open", said_anew<RevisionResult>},
                                               {"scene.remove", said_empty},
                                               {"tracker.list", said_anew<TrackerListResult>},
+                                              {"tracker.grab", said_anew<TrackerGrabResult>},
+                                              {"tracker.release", said_empty},
+                                              {"tracker.configure", said_empty},
+                                              {"tracker.reset", said_empty},
+                                              {"tracker.touch", said_anew<TouchResult>},
+                                              {"tracker.align", said_anew<CalibrationResult>},
+                                              {"tracker.tip", said_anew<CalibrationResult>},
+                                              {"tracker.boresight", said_anew<CalibrationResult>},
                                               {"stream.subscribe", said_anew<SubscribeResult>},
                                               {"stream.unsubscribe", said_anew<SubscribeResult>},
                                               {"stream.ack", said_empty},
@@ -144,6 +156,7 @@ TEST(Examples, NoticesAreWhatTheDaemonSays) {
     const json data = json::parse(in->data, nullptr, false);
     if (name == "stream.frame.pose") return encode_pose_frame(in->seq, *decode_message<PoseData>(in->data), {});
     if (name == "stream.frame.tracker") return encode_tracker_frame(in->seq, *decode_message<TrackerData>(in->data));
+    if (name == "stream.frame.camera") return encode_camera_frame(in->seq, *decode_message<CameraData>(in->data));
     if (name == "stream.frame.stats") return encode_stats_frame(in->seq, *decode_message<StatsData>(in->data));
     if (name == "stream.frame.scene") {
       const SceneDocument scene = *decode_scene(data.at("document").dump());
@@ -168,7 +181,7 @@ TEST(Examples, NoticesAreWhatTheDaemonSays) {
     EXPECT_EQ(json::parse(line), json::parse(example.at("notice").dump()));
     ++notices;
   }
-  EXPECT_EQ(notices, 7);
+  EXPECT_EQ(notices, 8);
 }
 
 TEST(Examples, ThePatchFitsTheSnapshot) {

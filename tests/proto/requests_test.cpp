@@ -28,8 +28,11 @@ std::vector<Params> full_messages() {
   BindingEdit binding;
   binding.id = "b1";
   binding.sensor = "liberty:2";
-  binding.to = BindingTarget{"g1", ""};
-  binding.axes = Axes{true, false, true};
+  binding.to = BindingTarget{"g1", "", "", "", ""};
+  binding.axes = Axes{true, false, true, false, true};
+  binding.clutch = Clutch{3};
+  binding.offset = SensorOffset{{0.01, 0, -0.02}, quat_from_xyzw(0.5, 0.5, 0.5, 0.5)};
+  binding.filter = BindingFilter{OneEuro{0.5, 3.0, 2.0}, 12.5};
   binding.mode = Binding::Mode::relative;
   binding.scale = -2.5;
   binding.label = Patched<std::string>::reset();
@@ -41,6 +44,19 @@ std::vector<Params> full_messages() {
   object.shapes = std::vector<Shape>{{Shape::Kind::box, {0, 0, 0.2}, {0.2, 0.2, 0.02}, 0.0}};
   object.label = std::string("blue");
   object.user = std::string("[1]");
+  CameraEdit camera;
+  camera.id = "main";
+  camera.position = Vec3(0.1, 0, 0.05);
+  camera.rotation = Patched<Quat>::reset();
+  camera.relative_to = GoalBase{GoalBase::Kind::segment, "body", "head", ""};
+  camera.fov_y = 0.9;
+  camera.label = std::string("eyes");
+  camera.user = std::string("{}");
+  TrackerConfigure configure{"liberty", true, std::string("monday"), 120.0, std::vector<std::string>{"liberty:1"}, {},
+                             {},        {}};
+  configure.hemisphere["liberty:1"] = Vec3(0, 0, 1);
+  configure.position_filter = DeviceFilter{true, 0.2, 0.3, 0.8, 0.95};
+  configure.attitude_filter = Patched<DeviceFilter>::reset();
   FigureSet figure{"body", Patched<std::string>::reset(), 1.8, *tempus(1.8), std::string("Ana"), std::string("[]")};
   SolverSet solver{std::string("reach_tree"), 400, Patched<int>::reset()};
   Solve solve;
@@ -81,7 +97,18 @@ std::vector<Params> full_messages() {
           BindingSet{binding},
           BindingGet{"b1"},
           BindingRemove{"b1"},
-          JointSet{"body", "waist", {0, 0.0998334, 0, 0.9950042}, 0.5, 1.2, -0.1},
+          JointSet{"body", "waist", {0, 0.0998334, 0, 0.9950042}, 0.5, 1.2, -0.1, JointHold{2.5}},
+          CameraSet{camera},
+          CameraGet{"main"},
+          CameraRemove{"main"},
+          TrackerGrab{"liberty", true},
+          TrackerRelease{"liberty", true},
+          configure,
+          TrackerReset{"liberty", true},
+          TrackerTouch{"liberty:1", true, 250, Vec3(1, 2, 3)},
+          TrackerAlign{"liberty", "monday", true, {{{1, 2, 3}, {0, 1.0 / 3.0, 0}}}},
+          TrackerTip{"liberty:1", "monday", true, 2000, Vec3(0.1, 0, 0)},
+          TrackerBoresight{"liberty:1", "monday", true, 100, quat_from_xyzw(0.5, 0.5, 0.5, 0.5)},
           JointGet{"body", "waist"},
           PoseGet{"body", 42, 100},
           PoseSet{"body", {1.0 / 3.0, 2, 3}},
@@ -111,7 +138,7 @@ void expect_round_trip(const Params& message) {
 
 TEST(Requests, EveryMethodComesThrough) {
   const std::vector<Params> messages = every_message();
-  ASSERT_EQ(messages.size(), 47u);
+  ASSERT_EQ(messages.size(), 59u);
   for (const Params& message : messages) expect_round_trip(message);
 }
 
@@ -163,7 +190,7 @@ TEST(Requests, CallQuotesAMethodOfAnyBytes) {
 
 TEST(Requests, EncodingLeavesTheMessageAlone) {
   BindingEdit edit;
-  edit.to = BindingTarget{"a goal whose name is a string of its own on the heap", ""};
+  edit.to = BindingTarget{"a goal whose name is a string of its own on the heap", "", "", "", ""};
   const Params message = BindingSet{edit};
   const std::string* before = &std::get<BindingSet>(message).edit.to->goal;
   const char* text = before->data();

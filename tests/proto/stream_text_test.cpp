@@ -148,8 +148,9 @@ TEST(StreamText, TrackerFrames) {
   sensor.flags = {"distorted", "error_x"};
   sensor.device_count = 4294967295u;
   sensor.device_t_ns = -21;
-  const json data = data_of(encode_tracker_frame(18446744073709551615u, {5, "liberty", {sensor, SensorData{}}}));
+  const json data = data_of(encode_tracker_frame(18446744073709551615u, {5, 3, "liberty", {sensor, SensorData{}}}));
   EXPECT_EQ(data["t_ns"], 5);
+  EXPECT_EQ(data["sample_t_ns"], 3);
   EXPECT_EQ(data["device"], "liberty");
   ASSERT_EQ(data["sensors"].size(), 2u);
   const json& s = data["sensors"][0];
@@ -160,7 +161,19 @@ TEST(StreamText, TrackerFrames) {
   EXPECT_EQ(s["flags"], json::parse(R"(["distorted","error_x"])"));
   EXPECT_EQ(s["device_count"], 4294967295u);
   EXPECT_EQ(s["device_t_ns"], -21);
-  EXPECT_EQ(data_of(encode_tracker_frame(1, {5, "liberty", {}}))["sensors"], json::array());
+  EXPECT_EQ(data_of(encode_tracker_frame(1, {5, 0, "liberty", {}}))["sensors"], json::array());
+}
+
+TEST(StreamText, CamerasAreInTheWorldToTheirDecimals) {
+  const CameraData cameras{7, {{"main", {{0.1234567, 0, -1}, quat_about(kZ, 1.0)}, 0.9}, {"b", {}, kDefaultFovY}}};
+  const json data = data_of(encode_camera_frame(3, cameras));
+  EXPECT_EQ(data["t_ns"], 7);
+  ASSERT_EQ(data["cameras"].size(), 2u);
+  EXPECT_EQ(data["cameras"][0]["camera"], "main");
+  EXPECT_NEAR(data["cameras"][0]["position"][0], 0.1234567, kMetre * 1.0001);
+  EXPECT_NEAR(data["cameras"][0]["quat_xyzw"][2], std::sin(0.5), kQuat * 1.0001);
+  EXPECT_NEAR(data["cameras"][1]["fov_y"], kDefaultFovY, kQuat * 1.0001);
+  EXPECT_EQ(data_of(encode_camera_frame(3, {7, {}}))["cameras"], json::array());
 }
 
 // A device may put any byte where its error letter stands: it broke the line for every viewer.
@@ -169,7 +182,7 @@ TEST(StreamText, AnErrorLetterOfAnyByteLeavesTheLineWhole) {
     SensorData sensor;
     sensor.sensor = "liberty:1";
     sensor.flags = {std::string("error_") + static_cast<char>(byte)};
-    const std::string line = encode_tracker_frame(1, {5, "liberty", {sensor}});
+    const std::string line = encode_tracker_frame(1, {5, 0, "liberty", {sensor}});
     ASSERT_TRUE(json::accept(line)) << byte;
     EXPECT_EQ(line.find('\n'), std::string::npos) << byte;
     EXPECT_EQ(json::parse(line)["params"]["data"]["sensors"][0]["flags"].size(), 1u) << byte;

@@ -112,7 +112,7 @@ void LibertyEmulator::execute(const std::string& line) {
   }
   const std::string rest = line.substr(1);
   if (echo_) answer(command, 0, Bytes(line.begin(), line.end()), line);
-  constexpr std::string_view kKnown = "CFUORHQ\x05\x12\x15";
+  constexpr std::string_view kKnown = "CFUORHQXY\x05\x12\x15";
   if (kKnown.find(command) == std::string_view::npos) return complain(command, kInvalidCommand, line);
   if (command == 'C') {
     commands_.push_back(line);
@@ -137,6 +137,10 @@ void LibertyEmulator::set(char command, const Arguments& arguments, const std::s
         sensor.hemisphere[i] = std::atof(arguments[i + 1].c_str());
       }
     }
+  } else if (command == 'X' || command == 'Y') {
+    if (arguments.size() != 4) return complain(command, arguments.size() < 4 ? kTooFew : kTooMany, line);
+    std::array<double, 4>& filter = filters_[command];
+    for (std::size_t i = 0; i < 4; ++i) filter[i] = std::atof(arguments[i].c_str());
   } else if (command == 'R') {
     if (kind_.rate_hz != 240) return complain(command, kInvalidParameter, line);
     if (value != 3 && value != 4) return complain(command, kInvalidParameter, line);

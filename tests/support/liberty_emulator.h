@@ -51,6 +51,10 @@ class LibertyEmulator final : public TrackerEmulator {
   bool centimetres() const { return centimetres_; }
   bool buffering() const { return buffering_; }
   int rate_code() const { return rate_; }
+  // Of positions (X) or attitudes (Y): how sharp, low, high, most; as it was told last.
+  std::array<double, 4> filter(char command) const { return filters_.contains(command) ? filters_.at(command) : kOff; }
+  std::array<double, 3> hemisphere(int station) const { return sensors_.at(station).hemisphere; }
+  bool active(int station) const { return sensors_.at(station).active; }
   std::uint32_t count() const { return count_; }
   const std::vector<std::string>& commands() const { return commands_; }  // all that were understood, in order
 
@@ -87,6 +91,8 @@ class LibertyEmulator final : public TrackerEmulator {
   bool continuous_ = false, binary_ = false, centimetres_ = false, buffering_ = true, echo_ = false;
   bool on_serial_ = false;
   int rate_ = 4;
+  static constexpr std::array<double, 4> kOff{0, 1, 0, 0};
+  std::map<char, std::array<double, 4>> filters_;
 };
 
 // The 8 bytes in front of everything that it says in binary mode.

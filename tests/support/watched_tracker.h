@@ -69,6 +69,7 @@ class WatchedTracker {
   // Inside a wait's condition.
   const tracker::Status& last_status() const { return status_; }
   const std::vector<Frame>& last_frames() const { return frames_; }
+  Result<Ok> configure(const tracker::Settings& settings) { return tracker_->configure(settings); }
   void stop() { tracker_->stop(); }
 
  private:

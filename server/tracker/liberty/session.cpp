@@ -34,6 +34,16 @@ std::string hemisphere_command(const Vec3& zenith) {
 
 }  // namespace
 
+Abilities liberty_abilities(const LibertyFamily& family) {
+  Abilities can{{}, family.stations, true, true};
+  if (family.half_rate_hz) can.rates = {static_cast<double>(family.rate_hz), static_cast<double>(family.half_rate_hz)};
+  return can;
+}
+
+Preferences liberty_defaults(const LibertyFamily& family) {
+  return {static_cast<double>(family.rate_hz), std::vector<int>{}, {{0, kX}}, FilterSetting{}, FilterSetting{}};
+}
+
 LibertySession::LibertySession(LibertyOptions options)
     : options_(std::move(options)), decoder_(make_decoder(options_, options_.family.rate_hz)) {}
 
@@ -45,13 +55,7 @@ bool LibertySession::set_up(Conversation& with) {
   // device is switched off so that a late read gets the newest frame instead of an old one.
   if (!with.write("F1\r") || !with.write("U1\r")) return false;
   if (!serial() && !with.write("@B0\r")) return false;
-  stations_.reset();
-  if (!with.ask("\x15"
-                "0\r",
-                [this] { return stations_.has_value(); })) {
-    with.trouble(no_answer(options_.family.name, options_.baud));
-    return false;
-  }
+  if (!prefer(with) || !ask_stations(with)) return false;
   const int rate_hz = choose_rate(std::popcount(*stations_), with);
   if (options_.family.half_rate_hz && !with.write(rate_hz == options_.family.rate_hz ? "R4\r" : "R3\r")) return false;
   if (options_.hemisphere && !with.write(hemisphere_command(*options_.hemisphere))) return false;
@@ -63,11 +67,49 @@ bool LibertySession::set_up(Conversation& with) {
   return with.write("C\r");
 }
 
+bool LibertySession::ask_stations(Conversation& with) {
+  stations_.reset();
+  if (with.ask("\x15"
+               "0\r",
+               [this] { return stations_.has_value(); }))
+    return true;
+  with.trouble(no_answer(options_.family.name, options_.baud));
+  return false;
+}
+
+// What has been asked of the device, and no more: what somebody has set in it stays.
+bool LibertySession::prefer(Conversation& with) const {
+  const Preferences wish = with.preferences();
+  char text[80];
+  if (wish.stations) {
+    unsigned map = 0;
+    for (const int station : *wish.stations) map |= 1u << (station - 1);
+    if (wish.stations->empty()) map = (1u << options_.family.stations) - 1;
+    std::snprintf(text, sizeof text, "\x15%d,%X\r", 0, map);
+    if (!with.write(text)) return false;
+  }
+  for (const auto& [station, zenith] : wish.hemispheres) {
+    const Vec3 v = world_from_source(zenith);  // a half turn is its own inverse
+    const std::string whose = station == 0 ? "*" : std::to_string(station);
+    std::snprintf(text, sizeof text, "H%s,%.4f,%.4f,%.4f\r", whose.c_str(), v.x, v.y, v.z);
+    if (!with.write(text)) return false;
+  }
+  for (const auto& [letter, filter] : {std::pair{'X', wish.position_filter}, {'Y', wish.attitude_filter}}) {
+    if (!filter) continue;
+    const FilterSetting f = filter->on ? *filter : FilterSetting{false, 0.0, 1.0, 0.0, 0.0};
+    std::snprintf(text, sizeof text, "%c%.3f,%.3f,%.3f,%.3f\r", letter, f.sensitivity, f.low, f.high, f.most);
+    if (!with.write(text)) return false;
+  }
+  return true;
+}
+
 // What a serial line carries is less than what the device measures.
 int LibertySession::choose_rate(int sensors, Conversation& with) const {
   const LibertyFamily& family = options_.family;
   const int most = serial() ? static_cast<int>(options_.baud) / kBitsPerByte / kSerialRecord : 1'000'000;
-  if (sensors * family.rate_hz <= most) return family.rate_hz;
+  const std::optional<double> wish = with.preferences().rate_hz;
+  const bool slow = wish && *wish == family.half_rate_hz;
+  if (!slow && sensors * family.rate_hz <= most) return family.rate_hz;
   const int slower = family.half_rate_hz ? family.half_rate_hz : family.rate_hz;
   if (sensors * slower > most) {
     with.complain(std::to_string(options_.baud) + " baud do not carry " + std::to_string(sensors) + " sensors at " +

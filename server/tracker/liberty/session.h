@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "server/tracker/liberty/decoder.h"
+#include "server/tracker/preferences.h"
 #include "server/tracker/session.h"
 
 namespace posed::tracker {
@@ -33,6 +34,10 @@ struct LibertyOptions {
   std::optional<Vec3> hemisphere;
 };
 
+// What tracker.configure may ask of it, and what it is from the factory.
+Abilities liberty_abilities(const LibertyFamily& family);
+Preferences liberty_defaults(const LibertyFamily& family);
+
 class LibertySession final : public Session {
  public:
   explicit LibertySession(LibertyOptions options);
@@ -45,6 +50,8 @@ class LibertySession final : public Session {
  private:
   bool serial() const { return options_.baud > 0; }
   int choose_rate(int sensors, Conversation& with) const;
+  bool ask_stations(Conversation& with);
+  bool prefer(Conversation& with) const;
 
   LibertyOptions options_;
   LibertyDecoder decoder_;

@@ -57,7 +57,7 @@ Heard SpacemouseDecoder::feed(std::span<const std::uint8_t> report, Nanoseconds 
     if (id <= kButtons) bad_bytes_ += report.size();
     return out;
   }
-  out.frames.push_back({now, format_.device, {sample_}});
+  out.frames.push_back({now, 0, format_.device, {sample_}});
   return out;
 }
 

@@ -1,6 +1,7 @@
 #include "server/tracker/usb/models.h"
 
 #include <cstdio>
+#include <iterator>
 
 namespace posed::tracker {
 namespace {
@@ -16,6 +17,19 @@ constexpr UsbModel kModels[] = {
     {"", "FASTRAK 3", 0x0003, 0, "", "", {}},
     {"", "G4", 0xcf01, 0, "", "", {}},
 };
+
+static_assert(std::size(kModels) == kPolhemusProducts.size());
+static_assert(
+    [] {
+      for (std::size_t i = 0; i < std::size(kModels); ++i) {
+        const UsbProduct& known = kPolhemusProducts[i];
+        if (kModels[i].name != known.name || kModels[i].product != known.product ||
+            kModels[i].loader_product != known.loader || kModels[i].family.empty() == known.served)
+          return false;
+      }
+      return true;
+    }(),
+    "posectl doctor and the daemon know the same trackers");
 
 }  // namespace
 

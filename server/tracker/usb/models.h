@@ -8,11 +8,10 @@
 #include <string>
 #include <string_view>
 
+#include "common/usb_products.h"
 #include "server/tracker/usb/pipe.h"
 
 namespace posed::tracker {
-
-inline constexpr std::uint16_t kPolhemusVendor = 0x0f44;
 
 struct UsbModel {
   std::string_view family;  // the kind that serves it; empty: none does yet

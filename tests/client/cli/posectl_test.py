@@ -47,7 +47,8 @@ class Posectl(unittest.TestCase):
 
     def setUp(self):
         for line in ("scene new standing", "goal set right_hand 0.5 -0.3 1.2", "object set chair 0.6 0 0.45",
-                     "binding set simulated:1 --goal body.right_hand.position --id hand", "scene save monday"):
+                     "binding set simulated:1 --goal body.right_hand.position --id hand", "camera set main 2 0 1.5",
+                     "scene save monday"):
             self.posectl(*line.split())
 
     def commands(self, *path):
@@ -66,6 +67,8 @@ class Posectl(unittest.TestCase):
         self.assertGreater(len(commands), 40, commands)
         for path, examples in commands:
             self.assertTrue(examples, f"{path} has no example")
+            if path == ("tracker", "align"):
+                continue  # it wants a hand that touches: tests/integration/trackers_page.py has one
             for line in examples:
                 self.setUp()
                 if path == ("redo",):
@@ -74,7 +77,7 @@ class Posectl(unittest.TestCase):
                     done = self.shell(line)
                     self.assertEqual((done.returncode, done.stderr if path != ("token",) else ""), (0, ""), line)
                     # As JSON, too, where there is an answer.
-                    if path[0] not in ("view", "completion", "help", "token", "watch"):
+                    if path[0] not in ("view", "completion", "help", "token", "watch", "doctor"):
                         self.setUp()
                         if path == ("redo",):
                             self.posectl("undo")
@@ -120,7 +123,7 @@ class Posectl(unittest.TestCase):
         desk = self.ask("object", "get", "desk")
         self.assertEqual((desk["position"], desk["quat_xyzw"], desk["shape"][0]["half_size"]), ([1, 0, 0.7], [0, 0, 1, 0], [0.3, 0.6, 0.02]))
         self.posectl("binding", "set", "simulated:2", "--object", "desk", "--axes", "x", "y", "--mode", "relative", "--id", "b")
-        self.assertIn("b  simulated:2 leads object desk  relative  axes x y", self.posectl("binding", "list"))
+        self.assertIn("b  simulated:2 moves object desk x y  relative", self.posectl("binding", "list"))
         self.assertEqual(self.posectl("session", "list").count("posectl 0.1.0"), 1)
         document = Path(self.folder.name) / "figure.json"
         document.write_text(json.dumps(self.ask("figure", "get", "body")["document"]))

@@ -135,10 +135,17 @@ SCENE = {
     "objects": {"chair": {"position": [1, 0, 0.5], "quat_xyzw": [0, 0, 0, 1], "label": "blue", "user": {"a": 1},
                           "shape": [{"kind": "box", "center": [0, 0, 0], "half_size": [0.2, 0.2, 0.02]}]},
                 "table": {"position": [0, 0, 0]}},
-    "cameras": {},
+    "cameras": {"main": {"position": [2, 0, 1.5], "quat_xyzw": [0, 0, 1, 0], "fov_y": 0.9, "label": "door", "user": [1]},
+                "eyes": {"position": [0.1, 0, 0], "relative_to": {"segment": "head", "figure": "body"}},
+                "wand": {"position": [0, 0, 0], "relative_to": {"sensor": "liberty:1"}},
+                "seat": {"position": [0, 0, 1], "relative_to": {"object": "chair"}}},
     "bindings": {"b1": {"sensor": "simulated:1", "to": {"goal": "g1"}, "axes": ["x", "z"], "mode": "relative",
                         "scale": -2, "label": ""},
-                 "b2": {"sensor": "simulated:2", "to": {"object": "table"}, "axes": ["x", "rx", "ry", "rz"]}},
+                 "b2": {"sensor": "simulated:2", "to": {"object": "table"}, "axes": ["x", "rx"],
+                        "clutch": {"button": 0}, "offset": {"position": [0, 0, 0.1]}},
+                 "b3": {"sensor": "simulated:2", "to": {"camera": "main"},
+                        "filter": {"one_euro": {"min_cutoff_hz": 1, "beta": 3, "d_cutoff_hz": 1}, "predict_ms": 20}},
+                 "b4": {"sensor": "simulated:3", "to": {"joint": "neck", "figure": "body"}, "axes": ["rz"]}},
 }
 
 DOOR = "/segments/1"
@@ -175,7 +182,14 @@ BROKEN_SCENES = [  # a path of SCENE
     ("/objects/chair/position", [0, 0]), ("/objects/chair/quat_xyzw", [0, 0, 0]), ("/objects/chair/surplus", 1),
     ("/objects/chair/shape", [{"kind": "ball"}]), ("/objects/chair/shape/0/half_size", [0.2, -0.2, 0.02]),
     ("/objects/table/position", [0, 0, 2e6]), ("/goals/seat/relative_to", {"object": "a b"}),
-    ("/bindings/b2/to", {"object": "table", "goal": "g1"}), ("/bindings/b2/axes", ["rx"]), ("/bindings/b2/to", {}), ("/cameras", {"main": {}}),
+    ("/bindings/b2/to", {"object": "table", "goal": "g1"}), ("/bindings/b2/to", {}), ("/cameras", {"main": {}}),
+    ("/cameras/main/position", [0, 0]), ("/cameras/main/quat_xyzw", [0, 0, 0, 2]), ("/cameras/main/fov_y", 0),
+    ("/cameras/main/fov_y", 4), ("/cameras/main/surplus", 1), ("/cameras/eyes/relative_to", "moon"),
+    ("/cameras/wand/relative_to/sensor", "liberty"), ("/cameras/a b", {"position": [0, 0, 0]}),
+    ("/bindings/b2/clutch", {}), ("/bindings/b2/clutch/button", 32), ("/bindings/b2/offset/position", [0, 0, 101]),
+    ("/bindings/b2/offset/surplus", 1), ("/bindings/b3/filter/predict_ms", 101), ("/bindings/b3/filter/surplus", 1),
+    ("/bindings/b3/filter/one_euro/beta", -1), ("/bindings/b3/filter/one_euro/min_cutoff_hz", 0),
+    ("/bindings/b4/axes", ["x"]), ("/bindings/b4/to", {"figure": "body"}), ("/bindings/b4/to/goal", "g1"),
     ("/figures/a b", {"template": "tempus"}), ("/figures/body/template", "robot"), ("/figures/body/template", NONE),
     ("/figures/body/stature", 3), ("/figures/body/surplus", 1), ("/figures/body/document", HINGED),
     ("/figures/cabinet/q", ["0.5", 0.1]), ("/figures/cabinet/q", [1e7, 0]),
@@ -203,9 +217,9 @@ BROKEN_SCENES = [  # a path of SCENE
     ("/goals/-g", {"figure": "body", "at": "head", "position": [0, 0, 0]}), ("/bindings/b1/sensor", NONE),
     ("/bindings/b1/sensor", "simulated"), ("/bindings/b1/sensor", "simulated:0"),
     ("/bindings/b1/sensor", "simulated:257"), ("/bindings/b1/sensor", "a b:1"), ("/bindings/b1/to", NONE),
-    ("/bindings/b1/to", {"joint": "waist"}), ("/bindings/b1/to/surplus", 1), ("/bindings/b1/axes", ["rx", "ry", "rz"]),
+    ("/bindings/b1/to/surplus", 1), ("/bindings/b1/axes", []),
     ("/bindings/b1/axes", "x"), ("/bindings/b1/mode", "both"), ("/bindings/b1/scale", 1001),
-    ("/bindings/b1/clutch", {"button": 0}), ("/bindings/b1/surplus", 1),
+    ("/bindings/b1/clutch", 0), ("/bindings/b1/surplus", 1),
 ]
 
 

@@ -29,11 +29,11 @@ TEST_F(BindingEdits, OnlyTheNamedFieldsChangeAndNullRestores) {
   ASSERT_TRUE(scene.set_binding(first, {}));
   BindingEdit retarget;
   retarget.id = "b1";
-  retarget.to = BindingTarget{"g2", ""};
+  retarget.to = BindingTarget{"g2", "", "", "", ""};
   expect_edited("b1", 2, [&] { return scene.set_binding(retarget, {}); });
   const Binding& kept = scene.bindings().at("b1").binding;
   EXPECT_EQ(kept.to.goal, "g2");
-  EXPECT_FALSE(kept.axes.y);
+  EXPECT_FALSE(kept.axes->y);
   EXPECT_EQ(kept.mode, Binding::Mode::relative);
   EXPECT_EQ(kept.scale, 2.0);
   EXPECT_EQ(kept.label, "wand");
@@ -46,7 +46,7 @@ TEST_F(BindingEdits, OnlyTheNamedFieldsChangeAndNullRestores) {
   null.label = Patched<std::string>::reset();
   ASSERT_TRUE(scene.set_binding(null, {}));
   const Binding& restored = scene.bindings().at("b1").binding;
-  EXPECT_TRUE(restored.axes.y);
+  EXPECT_TRUE(restored.axes->y);
   EXPECT_EQ(restored.mode, Binding::Mode::absolute);
   EXPECT_EQ(restored.scale, 1.0);
   EXPECT_EQ(restored.label, "");

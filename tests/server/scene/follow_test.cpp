@@ -111,7 +111,7 @@ TEST_F(Follow, DoesNotAllocate) {
   both.samples.push_back(frame({2, 2, 2}, 2).samples[0]);
   const std::size_t before = test::allocation_count();
   EXPECT_GT(before, 0u);
-  const bool moved = scene.follow(both);
+  const bool moved = scene.follow(both).pose;
   EXPECT_EQ(test::allocation_count(), before);
   EXPECT_TRUE(moved);
 }

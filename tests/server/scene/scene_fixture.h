@@ -56,7 +56,7 @@ class SceneTest : public ::testing::Test {
     BindingEdit edit;
     edit.id = std::move(id);
     edit.sensor = std::move(sensor);
-    edit.to = BindingTarget{std::move(goal), ""};
+    edit.to = BindingTarget{std::move(goal), "", "", "", ""};
     return edit;
   }
 

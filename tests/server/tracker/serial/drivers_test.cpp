@@ -54,6 +54,71 @@ TEST(LibertyOnSerial, TheRateIsWhatTheLineCarries) {
   }
 }
 
+TEST(LibertyOnSerial, WhatIsAskedOfTheDeviceIsToldIt) {
+  PtyTestbed bed(std::make_unique<LibertyEmulator>(2));
+  bed.with<LibertyEmulator>([](LibertyEmulator& device) { device.write("X0.5,0.4,0.6,0.7\r"); });
+  bed.plug();
+  Watched run("liberty", bed);
+  ASSERT_TRUE(run.wait_for_stations(2)) << run.status().message;
+  bed.with<LibertyEmulator>(
+      [](LibertyEmulator& device) { EXPECT_EQ(device.filter('X')[0], 0.5) << "what somebody has set in it stays"; });
+  Settings settings;
+  settings.stations = std::vector<int>{2};
+  settings.hemispheres[2] = Vec3(0, 1, 0);
+  settings.position_filter = FilterSetting{};
+  settings.attitude_filter = FilterSetting{true, 0.1, 0.2, 0.8, 0.9};
+  ASSERT_TRUE(run.configure(settings));
+  ASSERT_TRUE(run.wait_for_frame([](const Frame& f) { return f.samples.size() == 1 && f.samples[0].station == 2; }));
+  bed.with<LibertyEmulator>([](LibertyEmulator& device) {
+    EXPECT_FALSE(device.active(1));
+    EXPECT_EQ(device.hemisphere(2), (std::array<double, 3>{0, -1, 0})) << "the source's Y points to the right";
+    EXPECT_EQ(device.hemisphere(1), (std::array<double, 3>{1, 0, 0}));
+    EXPECT_EQ(device.filter('X'), (std::array<double, 4>{0, 1, 0, 0}));
+    EXPECT_EQ(device.filter('Y'), (std::array<double, 4>{0.1, 0.2, 0.8, 0.9}));
+  });
+  // One sensor fits at the full rate; the half one can be asked for.
+  ASSERT_TRUE(run.wait([&] { return run.last_status().rate_hz == 240; }));
+  Settings slow;
+  slow.rate_hz = 120.0;
+  ASSERT_TRUE(run.configure(slow));
+  ASSERT_TRUE(run.wait([&] { return run.last_status().rate_hz == 120; }));
+  Settings reset;
+  reset.reset = true;
+  ASSERT_TRUE(run.configure(reset));
+  ASSERT_TRUE(run.wait_for_stations(2));
+  bed.with<LibertyEmulator>([](LibertyEmulator& device) {
+    EXPECT_EQ(device.hemisphere(2), (std::array<double, 3>{1, 0, 0}));
+    EXPECT_EQ(device.filter('Y'), (std::array<double, 4>{0, 1, 0, 0}));
+  });
+}
+
+TEST(LibertyOnSerial, WhatItHasNotIsRefusedByName) {
+  PtyTestbed bed(std::make_unique<LibertyEmulator>(1));
+  Watched liberty("liberty", bed), fastrak("fastrak", bed);
+  const auto refused = [](Watched& run, const Settings& settings, const char* code, const char* path) {
+    const auto taken = run.configure(settings);
+    ASSERT_FALSE(taken);
+    EXPECT_EQ(taken.error().code, code);
+    EXPECT_EQ(taken.error().path, path);
+    EXPECT_FALSE(taken.error().hint.empty());
+  };
+  Settings rate;
+  rate.rate_hz = 1000.0;
+  refused(liberty, rate, "out_of_range", "/rate_hz");
+  refused(fastrak, rate, "not_available", "/rate_hz");
+  Settings sensors;
+  sensors.stations = std::vector<int>{1, 17};
+  refused(liberty, sensors, "out_of_range", "/sensors/1");
+  sensors.stations = std::vector<int>{};
+  refused(liberty, sensors, "out_of_range", "/sensors");
+  Settings filter;
+  filter.attitude_filter = FilterSetting{};
+  refused(fastrak, filter, "not_available", "/attitude_filter");
+  Settings half;
+  half.hemispheres[1] = Vec3(NAN, 0, 0);
+  refused(liberty, half, "out_of_range", "/hemisphere");
+}
+
 TEST(FastrakOnSerial, TheStylusButtonIsHeardAndStopsNothing) {
   PtyTestbed bed(std::make_unique<FastrakEmulator>(2));
   bed.plug();
