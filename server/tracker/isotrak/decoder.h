@@ -1,6 +1,8 @@
 // Bytes of a 3SPACE ISOTRAK II in binary mode, output list 2,11 -> Frames and replies. A record is 17 bytes (the header
 // as a FASTRAK's, seven 16-bit numbers) packed into 20 of seven bits: each group of up to seven is followed by their
-// eighth bits. Only the first byte has its own eighth bit set, so that a record's start cannot be mistaken. Source: the
+// eighth bits. Only the first byte has its own eighth bit set, so that a record's start cannot be mistaken. No
+// checksum: of random bodies behind a right header 0.6 % are taken, those whose quaternion happens to have about the
+// right length; of 8 MB of noise none (false_frames_test). Source: the
 // packing, the scales and the button's letters as VRPN's driver has them from the ISOTRAK II manual.
 #pragma once
 

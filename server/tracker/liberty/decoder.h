@@ -1,4 +1,6 @@
 // Bytes of a LIBERTY-family tracker in binary mode -> Frames, answers and error replies.
+// No checksum: of 300,000 random bodies behind a right header none was taken for a sample, nor any of 8 MB of noise
+// (false_frames_test); the quaternion's length and the distortion's level give them away.
 // Source: LIBERTY User Manual URM03PH156 Rev H, binary frame header, tables 2-19 and 2-46, error codes.
 #pragma once
 

@@ -32,6 +32,12 @@ Rate measure(const char* name, Make make, const Bytes& record, std::size_t body,
   std::mt19937_64 random(2026);
   Rate rate;
   std::uint64_t frames = 0;
+  {
+    auto decoder = make();
+    decoder.expect_up_to(1);
+    EXPECT_EQ(decoder.feed(record, 0).frames.size() + decoder.feed(std::span(record).first(body), 0).frames.size(), 1u)
+        << name << ": the record itself is right";
+  }
   for (int i = 0; i < kBodies; ++i) {
     auto decoder = make();
     decoder.expect_up_to(1);
