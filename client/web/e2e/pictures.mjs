@@ -15,7 +15,7 @@ const browser = await launch();
 /** The page, an element or a rectangle of it, as WebP at this width. */
 async function take(page, selector, width, path) {
   await page.mouse.move(5, 5);
-  const clip = typeof selector === "object" ? { clip: selector } : {};
+  const clip = selector && typeof selector === "object" ? { clip: selector } : {};
   const png = await (typeof selector === "string" ? page.locator(selector).screenshot() : page.screenshot(clip));
   const webp = await page.evaluate(
     async ([base64, width]) => {
@@ -52,8 +52,9 @@ for (const template of templates) {
   await drawn(small);
   const { left, right, top, bottom } = await rectOf(small, "perspective");
   // Below the title, as wide as high pictures are not.
-  const height = bottom - top - 40;
-  await take(small, { x: (left + right - height * 1.25) / 2, y: top + 36, width: height * 1.25, height }, 240, join(web, "public/gallery", `${template.replace("/", "-")}.webp`));
+  const width = right - left - 4;
+  const height = Math.min(bottom - top - 40, width / 1.2);
+  await take(small, { x: left + 2, y: bottom - height - 2, width, height }, 240, join(web, "public/gallery", `${template.replace("/", "-")}.webp`));
 }
 await small.context().close();
 

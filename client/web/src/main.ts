@@ -28,11 +28,15 @@ import { browserStore, tabStore } from "./tools/stores";
 import type { Theme } from "./views/palette";
 import { Views } from "./views/views";
 
+/** Drawn frames in a row that the panels let pass. */
+const kPanelsWait = 2;
+
 await painted();
 const model = new Model();
 model.settings = loadSettings(browserStore());
 let session: Session | null = null;
 let drawnPose = 0;
+let panelsWaited = 0;
 let settingsSeen = -1;
 let chosenSeen = "";
 
@@ -111,7 +115,11 @@ function frame(): void {
   const poseTime = model.poseTimeNs;
   const drew = views.draw(model, theme(), gizmoPlace(model));
   if (drew) model.frameMeter.count(start);
-  for (const part of [bar, tabs, hints, toast]) part.update(start);
+  // Panels wait for a frame that has nothing to draw, but not for long: no frame has to do both.
+  if (!drew || ++panelsWaited > kPanelsWait) {
+    panelsWaited = 0;
+    for (const part of [bar, tabs, hints, toast]) part.update(start);
+  }
   session?.streams.ackDrawn();
   const end = performance.now();
   if (poseTime !== drawnPose) bar.drew((drawnPose = poseTime), end);

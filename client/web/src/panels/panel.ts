@@ -4,7 +4,7 @@ import type { Model, Topic } from "../state/model";
 
 /** What streams sixty times a second; nobody reads numbers that fast. */
 const kStreams: readonly Topic[] = ["pose", "samples", "cameras"];
-const kStreamPauseMs = 100;
+const kStreamPauseMs = 150;
 
 export abstract class Panel {
   private seen = "";
