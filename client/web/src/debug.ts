@@ -34,6 +34,7 @@ export function exposeDebugHandle(model: Model, views: Views): void {
         waiting: model.waitingEdits,
         selected: { goal: model.selectedGoal, segment: structuredClone(model.selectedSegment) },
         rides: structuredClone(model.rides),
+        cameras: structuredClone(model.cameras),
       };
     },
     /** Milliseconds of script that the last frames took. */

@@ -10,6 +10,8 @@ export const checks = [
   ["a sensor leads a goal, and lets it go", withTracker(leads)],
   ["a sensor is dropped on a cube", withTracker(drops)],
   ["a sensor leads an object", withTracker(leadsObject)],
+  ["a sensor turns a joint", withTracker(turns)],
+  ["a sensor is the camera, with a clutch", withTracker(looks)],
 ];
 
 /** One daemon with a tracker and one page on it for all of these. */
@@ -86,4 +88,37 @@ async function leadsObject({ page }) {
   await page.getByTestId(`sensor-${sensor}`).getByTestId("sensor-target").selectOption({ label: "object box" });
   await until(async () => Object.values((await state(page)).scene.bindings).some(({ to }) => to.object === "box"), "the binding");
   assert.ok(distance([0, 0, 0], (await state(page)).scene.objects.box.position) > 0);
+}
+
+const bindings = async (page) => Object.values((await state(page)).scene.bindings);
+
+async function turns({ page }) {
+  await begin(page, "standing");
+  await page.getByTestId("tab-trackers").click();
+  await drop(page, sensor, "front", [0.05, 0, 1.68]);
+  await until(async () => (await bindings(page)).some(({ to }) => to.joint === "head"), "the binding to the head's joint");
+  const turned = new Set();
+  await until(async () => {
+    const { segments, pose } = (await state(page)).figures.body;
+    turned.add(JSON.stringify(pose.worldFromSegment[segments.indexOf("head")]));
+    return turned.size > 2;
+  }, "the head to turn");
+}
+
+async function looks({ page }) {
+  await begin(page, "standing");
+  await page.getByTestId("tab-trackers").click();
+  const row = page.getByTestId(`sensor-${sensor}`);
+  await row.getByTestId("sensor-target").selectOption({ label: "camera main" });
+  await until(async () => (await bindings(page)).some(({ to }) => to.camera === "main"), "the binding");
+  assert.deepEqual((await state(page)).rides, { camera: "main" });
+  const seen = new Set();
+  await until(async () => {
+    seen.add(JSON.stringify((await state(page)).cameras));
+    return seen.size > 2;
+  }, "the camera to move");
+  await row.getByTestId("binding-clutch").click();
+  await until(async () => (await bindings(page)).some(({ clutch }) => clutch?.button === 0), "the clutch");
+  await row.getByTestId("binding-remove").click();
+  await until(async () => (await bindings(page)).length === 0, "the binding to go");
 }

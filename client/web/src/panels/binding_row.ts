@@ -3,7 +3,7 @@ import { html, nothing, type TemplateResult } from "lit-html";
 import { live } from "lit-html/directives/live.js";
 import type { BindingDocument } from "../protocol/types";
 import type { Model } from "../state/model";
-import { axesOf, mayUse, targetOf, targetText } from "../tools/bindings";
+import { axesOf, leadsMore, targetOf, targetText } from "../tools/bindings";
 import type { Requests } from "../tools/requests";
 import { clicked } from "./panel";
 
@@ -32,7 +32,7 @@ export function bindingRow(model: Model, requests: Requests, id: string, binding
       ${[["x"], ["y"], ["z"], ["rx", "ry", "rz"]].map((names) => html`<button type="button" class="small" aria-pressed=${names.every((name) => axes.includes(name))} aria-label=${names.length > 1 ? "turns" : `moves along ${names[0]}`} ?disabled=${disabled}
         @click=${clicked(() => toggle(names))}>${names.length > 1 ? "turn" : names[0]}</button>`)}
       <label class="field">× <input type="number" step="0.1" data-testid="binding-scale" aria-label="Scale" .value=${String(binding.scale ?? 1)} ?disabled=${disabled} @change=${scale} /></label>
-      ${mayUse(model, "clutch") ? html`<label class="field"><input type="checkbox" data-testid="binding-clutch" .checked=${live(Boolean(binding.clutch))} ?disabled=${disabled}
+      ${leadsMore(model) ? html`<label class="field"><input type="checkbox" data-testid="binding-clutch" .checked=${live(Boolean(binding.clutch))} ?disabled=${disabled}
           @change=${(event: Event) => set({ clutch: (event.target as HTMLInputElement).checked ? { button: 0 } : null })} /> clutch: button</label>` : nothing}
     </div>
   </div>`;

@@ -6,9 +6,9 @@ import type { Requests } from "./requests";
 
 export type Target = { goal: string } | { object: string } | { joint: string; figure: string } | { camera: string };
 
-/** Whether this daemon does more than goals and objects: it says so in its hello. */
-export function mayUse(model: Model, what: "joints" | "cameras" | "clutch"): boolean {
-  return model.hello?.features?.includes(what === "cameras" ? "cameras" : what) ?? false;
+/** Whether sensors lead cameras and joints here too, with a clutch: a daemon says so in its hello. */
+export function leadsMore(model: Model): boolean {
+  return model.hello?.features?.includes("cameras") ?? false;
 }
 
 export function targetKey(target: Target): string {
@@ -36,14 +36,14 @@ export function targetsOf(model: Model): Target[] {
   return [
     ...Object.entries(goals).filter(([, { position, relative_to = "world" }]) => position && relative_to === "world").map(([goal]) => ({ goal })).sort((a, b) => (a.goal < b.goal ? -1 : 1)),
     ...Object.keys(objects).map((object) => ({ object })),
-    ...(mayUse(model, "cameras") ? [{ camera: "main" }] : []),
-    ...(mayUse(model, "joints") && model.selectedSegment ? jointOf(model, model.selectedSegment.figure, model.selectedSegment.segment) : []),
+    ...(leadsMore(model) ? [{ camera: "main" }] : []),
+    ...(leadsMore(model) && model.selectedSegment ? jointOf(model, model.selectedSegment.figure, model.selectedSegment.segment) : []),
   ];
 }
 
 export function jointOf(model: Model, figure: string, segment: string): Target[] {
   const joint = model.figures.get(figure)?.segments.find(({ name }) => name === segment)?.joint;
-  return joint && (joint.type === "ball" || joint.type === "universal") ? [{ joint: joint.name, figure }] : [];
+  return joint && ["ball", "universal", "hinge"].includes(joint.type) ? [{ joint: joint.name, figure }] : [];
 }
 
 export function bindingsOf(model: Model, sensor: string): Array<[string, BindingDocument]> {
@@ -58,7 +58,13 @@ export function axesOf({ axes, to }: BindingDocument): string[] {
 export function bindTo(model: Model, requests: Requests, sensor: string, target: Target): void {
   const same = Object.entries(model.scene.document.bindings).find(([, binding]) => targetKey(targetOf(binding) ?? { goal: "" }) === targetKey(target));
   const axes = "goal" in target ? { axes: ["x", "y", "z"] } : "joint" in target ? { axes: ["rx", "ry", "rz"] } : {};
-  requests.bind(same?.[0] ?? freeId(model, sensor), { sensor, to: target, mode: "absolute", ...axes });
+  const id = same?.[0] ?? freeId(model, sensor), binding = { sensor, to: target, mode: "absolute" as const, ...axes };
+  if (!("camera" in target)) return requests.bind(id, binding);
+  model.rides = { camera: target.camera };
+  if (target.camera in model.scene.document.cameras) return requests.bind(id, binding);
+  // Until the sensor speaks it looks at a standing person from the front.
+  const made = { id: target.camera, position: [3, 0, 1.2], quat_xyzw: [0, 0, 1, 0] };
+  void requests.apply("a camera", [{ method: "camera.set", params: made }, { method: "binding.set", params: { id, ...binding } }]);
 }
 
 /** A sensor's name has a colon, an id must not. */

@@ -3,7 +3,7 @@
 import type { Model } from "../state/model";
 import { viewNames, type ViewName } from "../views/names";
 import type { Views } from "../views/views";
-import { bindTo, jointOf, mayUse, type Target } from "./bindings";
+import { bindTo, jointOf, leadsMore, type Target } from "./bindings";
 import { pickGoal } from "./pick";
 import type { Requests } from "./requests";
 
@@ -21,10 +21,7 @@ export function listenToDrops(views: Views, model: Model, requests: Requests): v
       event.preventDefault();
       const target = targetAt(views, model, name, event.clientX, event.clientY);
       if (!target) model.say("Nothing here can follow a sensor", "drop it on a goal's cube, an object or a part of the body");
-      else {
-        bindTo(model, requests, sensor, target);
-        if ("camera" in target) model.rides = { camera: target.camera };
-      }
+      else bindTo(model, requests, sensor, target);
     });
   }
 }
@@ -34,6 +31,6 @@ function targetAt(views: Views, model: Model, name: ViewName, x: number, y: numb
   if (goal) return { goal };
   const [segment, object] = [views.segmentAt(name, x, y), views.objectAt(name, x, y)];
   if (object && (!segment || object.distance < segment.distance)) return { object: object.key };
-  if (segment && mayUse(model, "joints")) return jointOf(model, segment.key.figure, segment.key.segment)[0] ?? null;
-  return !segment && name === "perspective" && mayUse(model, "cameras") ? { camera: "main" } : null;
+  if (segment && leadsMore(model)) return jointOf(model, segment.key.figure, segment.key.segment)[0] ?? null;
+  return !segment && name === "perspective" && leadsMore(model) ? { camera: "main" } : null;
 }
