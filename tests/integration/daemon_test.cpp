@@ -137,7 +137,7 @@ TEST(Daemon, ASensorBoundToAGoalMovesTheFigureWithNoClientBetween) {
 TEST(Daemon, WhatIsReservedIsRefusedNotAliased) {
   const RunningDaemon daemon;
   auto client = daemon.connect();
-  const auto reply = client.call("scene.remove", "{}");
+  const auto reply = client.call("take.record", "{}");
   ASSERT_FALSE(reply);
   EXPECT_EQ(reply.error().code, "not_available") << reply.error().message;
 }

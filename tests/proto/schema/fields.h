@@ -20,6 +20,9 @@ Json object_schema(Direction direction);
 inline Json whole() {
   return {{"type", "integer"}, {"minimum", 0}};
 }
+inline Json share() {
+  return {{"type", "number"}, {"exclusiveMinimum", 0}, {"maximum", 1}};
+}
 inline Json ref(const char* place) {
   return {{"$ref", place}};
 }
@@ -60,6 +63,16 @@ POSED_SCHEMA(JointValue, ref("scene.schema.json#/$defs/joint_value"))
 POSED_SCHEMA(Axes, ref("scene.schema.json#/$defs/binding/properties/axes"))
 POSED_SCHEMA(BindingTarget, ref("scene.schema.json#/$defs/binding/properties/to"))
 POSED_SCHEMA(Pin, ref("scene.schema.json#/$defs/figure/properties/pins/additionalProperties"))
+POSED_SCHEMA(JointHold, direction == Direction::to_daemon ? Json{{"type", {"boolean", "number"}}}
+                                                         : Json{{"anyOf", {{{"const", true}}, {{"type", "number"}}}}})
+POSED_SCHEMA(DeviceFilter,
+             Json{{"anyOf",
+                   {{{"const", "off"}},
+                    {{"type", "object"},
+                     {"required", {"sensitivity", "low", "high", "max"}},
+                     {"additionalProperties", false},
+                     {"properties",
+                      {{"sensitivity", share()}, {"low", share()}, {"high", share()}, {"max", share()}}}}}}})
 POSED_SCHEMA(Start, Json{{"oneOf",
                           {{{"enum", {"rest", "current"}}},
                            {{"type", "object"},
@@ -192,8 +205,7 @@ class Fields {
 };
 
 template <class T>
-Json object_schema(Direction direction) {
-  Fields fields(direction);
+Json fields_of(Fields& fields) {
   T message{};
   describe(fields, message);
   // Written, and of no use to who reads.
@@ -204,6 +216,19 @@ Json object_schema(Direction direction) {
     for (const char* key : {"axes", "limits"}) fields.constant(key, said.at(key));
   }
   return fields.take();
+}
+
+template <class T>
+Json object_schema(Direction direction) {
+  Fields fields(direction);
+  if constexpr (std::is_same_v<T, Clocks>) {  // it has references only
+    Nanoseconds t = 0, utc = 0;
+    Clocks clocks{t, utc};
+    describe(fields, clocks);
+    return fields.take();
+  } else {
+    return fields_of<T>(fields);
+  }
 }
 
 }  // namespace posed::proto

@@ -265,6 +265,17 @@ def walk():
     yield call("edit.history")
     for method in ("goal.list", "object.list", "binding.list", "figure.list", "scene.list", "tracker.list", "session.list"):
         yield call(method)
+    at = {"sensor": "simulated:1"}
+    yield call("tracker.grab", tracker="simulated")
+    yield call("tracker.touch", **at, for_ms=100, point=[1, 0, 0.8])
+    yield call("tracker.align", tracker="simulated", name="monday", points=[
+        {"source": [0, 0, 0], "world": [0, 0, 1]}, {"source": [1, 0, 0], "world": [1, 0, 1]}, {"source": [0, 1, 0], "world": [0, 1, 1]}])
+    yield call("tracker.tip", **at, offset=[0.1, 0, 0])
+    yield call("tracker.boresight", **at, for_ms=100)
+    yield call("tracker.configure", tracker="simulated", calibration="monday")
+    yield call("tracker.list")
+    yield call("tracker.reset", tracker="simulated")
+    yield call("tracker.release", tracker="simulated")
     yield call("stream.subscribe", stream="stats")
     yield call("stream.ack", stream="stats", seq=1)
     yield call("stream.unsubscribe", stream="stats")
@@ -275,6 +286,7 @@ def walk():
     yield call("goal.remove", id="lift")
     yield call("object.remove", id="anvil")
     yield call("goal.clear")
+    yield call("camera.remove", id="main")
     yield call("figure.remove", id="body")
     yield call("scene.new", template="paper/sitting")
 

@@ -137,7 +137,7 @@ TEST_F(CameraEdits, ComeAndGoWithTheDocumentAndWithUndo) {
 
   scene.begin();
   ASSERT_TRUE(scene.remove_camera("eyes", {}));
-  Change removed = scene.commit("ana");
+  Change removed = scene.commit();
   EXPECT_EQ(removed.entities(), std::vector<std::string>{"/cameras/eyes"});
   EXPECT_FALSE(scene.revert(removed)) << "no conflict";
   EXPECT_EQ(proto::encode_scene(scene.document()), text);
@@ -154,7 +154,7 @@ TEST_F(CameraEdits, ACameraIsNotBroughtBackToAFigureThatIsGone) {
   ASSERT_TRUE(scene.set_camera(camera_edit("eyes", {GoalBase::Kind::segment, "small", "tip", ""}), {}));
   scene.begin();
   ASSERT_TRUE(scene.remove_camera("eyes", {}));
-  Change removed = scene.commit("ana");
+  Change removed = scene.commit();
   ASSERT_TRUE(scene.remove_figure("small", {}));
   const auto conflict = scene.revert(removed);
   ASSERT_TRUE(conflict);

@@ -209,7 +209,7 @@ TEST_F(FollowJoints, AFigureThatIsTakenBackHasItsJointsAgain) {
   EXPECT_EQ(binding("b").joint, 2);
   scene.begin();
   ASSERT_TRUE(scene.set_figure(longer, {}));
-  Change change = scene.commit("ana");
+  Change change = scene.commit();
   EXPECT_EQ(change.entities(), std::vector<std::string>{"/figures/post"});
   ASSERT_FALSE(scene.revert(change));
   EXPECT_EQ(binding("b").joint, 2);
