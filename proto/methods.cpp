@@ -96,7 +96,6 @@ constexpr std::array kMethods{
 };
 static_assert(kMethods.size() == std::variant_size_v<Params>);
 
-
 bool ends_with_any(std::string_view name, std::initializer_list<std::string_view> endings) {
   return std::any_of(endings.begin(), endings.end(), [&](std::string_view ending) { return name.ends_with(ending); });
 }

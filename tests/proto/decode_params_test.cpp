@@ -126,9 +126,10 @@ TEST(DecodeParams, OnlyEditsTakeIfRevision) {
     json request = json::parse(encode_request(1, message));
     request["params"]["if_revision"] = 7;
     const std::string method = request["method"];
-    const bool edits = method.ends_with(".set") ? method != "solver.set"
-                                                : (method.ends_with(".remove") && method != "scene.remove") || method == "pose.reset" ||
-                                                      method == "pose.mirror" || method == "figure.pin";
+    const bool edits = method.ends_with(".set")
+                           ? method != "solver.set"
+                           : (method.ends_with(".remove") && method != "scene.remove") || method == "pose.reset" ||
+                                 method == "pose.mirror" || method == "figure.pin";
     if (edits) {
       EXPECT_EQ(accepted(request.dump()).if_revision, 7u) << method;
     } else {

@@ -64,15 +64,15 @@ POSED_SCHEMA(Axes, ref("scene.schema.json#/$defs/binding/properties/axes"))
 POSED_SCHEMA(BindingTarget, ref("scene.schema.json#/$defs/binding/properties/to"))
 POSED_SCHEMA(Pin, ref("scene.schema.json#/$defs/figure/properties/pins/additionalProperties"))
 POSED_SCHEMA(JointHold, direction == Direction::to_daemon ? Json{{"type", {"boolean", "number"}}}
-                                                         : Json{{"anyOf", {{{"const", true}}, {{"type", "number"}}}}})
-POSED_SCHEMA(DeviceFilter,
-             Json{{"anyOf",
-                   {{{"const", "off"}},
-                    {{"type", "object"},
-                     {"required", {"sensitivity", "low", "high", "max"}},
-                     {"additionalProperties", false},
-                     {"properties",
-                      {{"sensitivity", share()}, {"low", share()}, {"high", share()}, {"max", share()}}}}}}})
+                                                          : Json{{"anyOf", {{{"const", true}}, {{"type", "number"}}}}})
+POSED_SCHEMA(
+    DeviceFilter,
+    Json{{"anyOf",
+          {{{"const", "off"}},
+           {{"type", "object"},
+            {"required", {"sensitivity", "low", "high", "max"}},
+            {"additionalProperties", false},
+            {"properties", {{"sensitivity", share()}, {"low", share()}, {"high", share()}, {"max", share()}}}}}}})
 POSED_SCHEMA(Start, Json{{"oneOf",
                           {{{"enum", {"rest", "current"}}},
                            {{"type", "object"},
