@@ -35,9 +35,20 @@ export async function makeByClick(page, segment = "right_hand", view = "front") 
   return id;
 }
 
+/** Where a point is once the view stands: a page that has just opened still finds its size. */
+async function still(page, view, point) {
+  let last = await project(page, view, point);
+  return until(async () => {
+    const now = await project(page, view, point);
+    const same = Math.hypot(now.x - last.x, now.y - last.y) < 0.01;
+    last = now;
+    return same && now;
+  }, "the view to stand");
+}
+
 export async function drags(page, view, [dx, dy], id = hand) {
   const before = (await state(page)).goals[id];
-  const from = await project(page, view, before.target);
+  const from = await still(page, view, before.target);
   await page.mouse.move(from.x, from.y);
   await page.mouse.down();
   await page.mouse.move(from.x + dx, from.y + dy, { steps: 6 });

@@ -1,6 +1,6 @@
 // All that is frequent, without a mouse.
 import assert from "node:assert/strict";
-import { begin, distance, figurePose, state, until } from "../browser.mjs";
+import { begin, distance, figurePose, project, state, until } from "../browser.mjs";
 
 export const checks = [
   ["a goal is made, moved, weighed, switched, undone and removed by keys alone", edits],
@@ -13,6 +13,10 @@ const id = "body.left_hand.position";
 
 async function edits({ page }) {
   await begin(page, "standing");
+  // The arrows mean the view that the pointer was in last.
+  const { x, y } = await project(page, "front", [0, 0, 1]);
+  await page.mouse.move(x + 1, y);
+  await page.mouse.move(x, y);
   while ((await state(page)).selected.segment?.segment !== "left_hand") await page.keyboard.press("]");
   await page.keyboard.press("Enter");
   await until(async () => (await state(page)).goals[id]?.pose && (await state(page)).selected.goal === id, "the goal");
