@@ -47,6 +47,7 @@ async function still(page, view, point) {
 }
 
 export async function drags(page, view, [dx, dy], id = hand) {
+  if (!(await state(page)).goals[id]?.pose) await makeByClick(page);
   const before = (await state(page)).goals[id];
   const from = await still(page, view, before.target);
   await page.mouse.move(from.x, from.y);
