@@ -7,6 +7,7 @@ import { lockOf } from "../tools/joints";
 import type { Poses } from "../tools/poses";
 import type { Requests } from "../tools/requests";
 import type { JointPanel } from "./joint_panel";
+import { padlock } from "./padlock";
 import { Panel, clicked, section } from "./panel";
 
 export class BodyPanel extends Panel {
@@ -102,9 +103,4 @@ export class BodyPanel extends Panel {
     this.model.hoveredSegment = segment === null ? null : { figure: this.figure, segment };
     this.model.touch("local");
   }
-}
-
-export function padlock(closed: boolean): TemplateResult {
-  return html`<svg viewBox="0 0 16 16" width="14" height="14" aria-hidden="true"><rect x="3" y="7" width="10" height="7" rx="1.5" fill="currentColor" /><path
-    d=${closed ? "M5 7V5a3 3 0 0 1 6 0v2" : "M5 7V4a3 3 0 0 1 5.6-1.5"} fill="none" stroke="currentColor" stroke-width="1.6" /></svg>`;
 }

@@ -6,7 +6,7 @@ import type { ChosenSegment, Model } from "../state/model";
 import { degreesText, lengthText, plain } from "../state/words";
 import { axisName, lockOf, setJoint, toggleLock, universalAngles, universalTurn } from "../tools/joints";
 import type { Requests } from "../tools/requests";
-import { padlock } from "./body_panel";
+import { padlock } from "./padlock";
 import { Panel, clicked, section } from "./panel";
 import { shownValue, slider } from "./slider";
 
