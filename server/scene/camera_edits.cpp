@@ -1,22 +1,12 @@
 #include "server/scene/errors.h"
 #include "server/scene/goal_resolve.h"
+#include "server/scene/place.h"
 #include "server/scene/scene.h"
-#include "server/solver/figure_check.h"
 
 namespace posed {
 
 Result<SceneCamera> Scene::make_camera(Camera camera) const {
-  Transform& place = camera.base_from_camera;
-  for (int i = 0; i < 3; ++i) {
-    if (!(std::abs(place.position[i]) <= kMaxCoordinate))
-      return Error{"out_of_range", "the position is too far away", "/position/" + std::to_string(i),
-                   "within 1000 km of the origin"};
-  }
-  const double length = glm::length(place.rotation);
-  if (!(std::abs(length - 1.0) <= kUnitQuatTolerance))
-    return Error{"invalid_params", "the quaternion is not of unit length", "/quat_xyzw",
-                 "x y z w, with x²+y²+z²+w² = 1"};
-  if (std::abs(length - 1.0) > 1e-15) place.rotation = place.rotation / length;  // else kept to the last digit
+  if (const Status placed = settle_place(camera.base_from_camera); !placed) return placed.error();
   if (!(camera.fov_y > 0.0 && camera.fov_y < M_PI))
     return Error{"out_of_range", "the field of view is out of range", "/fov_y", "above 0 and below pi, in radians"};
 

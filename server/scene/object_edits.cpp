@@ -1,5 +1,6 @@
 #include "server/scene/errors.h"
 #include "server/scene/goal_resolve.h"
+#include "server/scene/place.h"
 #include "server/scene/scene.h"
 #include "server/solver/figure_check.h"
 
@@ -19,17 +20,7 @@ bool sane(const Shape& shape) {
 }  // namespace
 
 Result<SceneObject> Scene::make_object(Object object) {
-  Transform& place = object.world_from_object;
-  for (int i = 0; i < 3; ++i) {
-    if (!(std::abs(place.position[i]) <= kMaxCoordinate))
-      return Error{"out_of_range", "the position is too far away", "/position/" + std::to_string(i),
-                   "within 1000 km of the origin"};
-  }
-  const double length = glm::length(place.rotation);
-  if (!(std::abs(length - 1.0) <= kUnitQuatTolerance))
-    return Error{"invalid_params", "the quaternion is not of unit length", "/quat_xyzw",
-                 "x y z w, with x²+y²+z²+w² = 1"};
-  if (std::abs(length - 1.0) > 1e-15) place.rotation = place.rotation / length;  // else kept to the last digit
+  if (const Status placed = settle_place(object.world_from_object); !placed) return placed.error();
   if (object.shapes.size() > kMaxShapes)
     return Error{"out_of_range", "the object has more than 64 shapes", "/shape", "draw it with fewer"};
   for (std::size_t i = 0; i < object.shapes.size(); ++i) {
