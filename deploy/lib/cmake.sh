@@ -25,16 +25,17 @@ build_preset() {
   build_targets "$1"
 }
 
-# configure_preset PRESET [CMAKE_OPTION...]: when it is new, or when options are given.
+# configure_preset PRESET [CMAKE_OPTION...]: when it is new, or has changed, or when options are given.
 configure_preset() {
   local preset=$1 dir=build/$1
   shift
   local fresh=()
-  if [[ -f $dir/CMakeCache.txt ]] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$PWD" "$dir/CMakeCache.txt"; then
-    fresh=(--fresh) # the folder has been moved since
+  if [[ -f $dir/CMakeCache.txt ]] && { [[ CMakePresets.json -nt $dir/build.ninja ]] ||
+    ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$PWD" "$dir/CMakeCache.txt"; }; then
+    fresh=(--fresh) # the folder has been moved since, or the compiler may be another
   fi
   if [[ ! -f $dir/build.ninja || ${#fresh[@]} -gt 0 || $# -gt 0 ]]; then
-    [[ $preset == fuzz ]] || check_compiler
+    [[ $preset == asan ]] || check_compiler
     mkdir -p "$dir"
     cmake --preset "$preset" "${fresh[@]}" "$@" >"$dir/configure.log" 2>&1 || {
       cat "$dir/configure.log"
