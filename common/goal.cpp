@@ -1,5 +1,8 @@
 #include "common/goal.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace posed {
 namespace {
 
@@ -156,6 +159,13 @@ PayloadEdit spelled_out(const GoalPayload& payload) {
   if (const auto* p = std::get_if<BalanceTarget>(&payload)) e.balance = *p;
   if (const auto* p = std::get_if<PostureTarget>(&payload)) e.posture = *p;
   return e;
+}
+
+double over_tolerance(const GoalTolerance& tolerance, const Vec3& off, double least) {
+  if (!tolerance.box) return glm::length(off) / std::max(tolerance.radius, least);
+  double most = 0.0;
+  for (int k = 0; k < 3; ++k) most = std::max(most, std::abs(off[k]) / std::max((*tolerance.box)[k], least));
+  return most;
 }
 
 }  // namespace posed

@@ -119,6 +119,18 @@ struct GoalWeight {
   bool operator==(const GoalWeight&) const = default;
 };
 
+// How near is near enough: a radius, or for a position a box, half its sides along the axes of `relative_to`.
+struct GoalTolerance {
+  GoalTolerance(double within = 0.0) : radius(within) {}
+  explicit GoalTolerance(const Vec3& sides) : radius(0.0), box(sides) {}
+  double radius;  // m
+  std::optional<Vec3> box;
+  bool operator==(const GoalTolerance&) const = default;
+};
+
+// `off` (m, in those axes) in multiples of what is tolerated, of `least` m at least: up to 1 it is near enough.
+double over_tolerance(const GoalTolerance& tolerance, const Vec3& off, double least);
+
 struct Goal {
   std::string id;
   std::string figure;
@@ -126,8 +138,8 @@ struct Goal {
   GoalPayload payload;
   GoalBase relative_to;
   GoalWeight weight;
-  int priority = 0;        // -100 to 100; lower is met first
-  double tolerance = 0.0;  // m
+  int priority = 0;  // -100 to 100; lower is met first
+  GoalTolerance tolerance;
   bool enabled = true;
   std::string label;
   std::string user;  // JSON text of at most 4 KiB, kept verbatim; empty: none
@@ -160,7 +172,7 @@ struct GoalEdit : PayloadEdit {
   Patched<GoalBase> relative_to;
   Patched<GoalWeight> weight;
   Patched<int> priority;
-  Patched<double> tolerance;
+  Patched<GoalTolerance> tolerance;
   Patched<bool> enabled;
   Patched<std::string> label;
   Patched<std::string> user;

@@ -191,6 +191,13 @@ void read(ReadContext& c, const Json& j, GoalWeight& out) {
   r.finish();
 }
 
+void read(ReadContext& c, const Json& j, GoalTolerance& out) {
+  out = {};
+  if (j.is_array()) return read(c, j, out.box.emplace());
+  if (!j.is_number()) return c.fail("wrong_type", "a number was expected", "0.01; of a position also [0.01,0.01,0.2]");
+  read(c, j, out.radius);
+}
+
 void read(ReadContext& c, const Json& j, JointValue& out) {
   out = {};
   if (j.is_number()) return read(c, j, out.share.emplace_back());

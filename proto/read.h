@@ -77,6 +77,7 @@ void read(ReadContext& c, const Json& j, Limit& out);
 void read(ReadContext& c, const Json& j, Swing& out);
 void read(ReadContext& c, const Json& j, GoalBase& out);
 void read(ReadContext& c, const Json& j, GoalWeight& out);
+void read(ReadContext& c, const Json& j, GoalTolerance& out);
 void read(ReadContext& c, const Json& j, JointValue& out);
 void read(ReadContext& c, const Json& j, Axes& out);
 void read(ReadContext& c, const Json& j, Start& out);

@@ -69,6 +69,10 @@ Json write(const GoalWeight& w) {
   return w.orientation ? Json{{"position", w.value}, {"orientation", *w.orientation}} : Json(w.value);
 }
 
+Json write(const GoalTolerance& t) {
+  return t.box ? write(*t.box) : Json(t.radius);
+}
+
 Json write(const JointValue& v) {
   if (!v.oriented()) return v.share.size() == 1 ? Json(v.share[0]) : write(v.share);
   Json j = Json::object();

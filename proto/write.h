@@ -16,6 +16,7 @@ Json write(const Limit& l);
 Json write(const Swing& s);
 Json write(const GoalBase& b);
 Json write(const GoalWeight& w);
+Json write(const GoalTolerance& t);
 Json write(const JointValue& v);
 Json write(const Axes& a);
 Json write(const Start& s);

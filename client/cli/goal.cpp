@@ -21,7 +21,10 @@ void print_goal_entity(const proto::GoalResult& entry) {
   line += format("  weight %g", goal.weight.value);
   if (goal.weight.orientation) line += format(" and %g", *goal.weight.orientation);
   if (goal.priority != 0) line += format("  priority %d", goal.priority);
-  if (goal.tolerance > 0.0) line += format("  tolerance %g m", goal.tolerance);
+  if (const auto& box = goal.tolerance.box)
+    line += format("  tolerance [%g %g %g] m", box->x, box->y, box->z);
+  else if (goal.tolerance.radius > 0.0)
+    line += format("  tolerance %g m", goal.tolerance.radius);
   if (!goal.enabled) line += "  disabled";
   if (!entry.held_by.empty()) line += "  held by " + entry.held_by;
   if (!goal.label.empty()) line += "  " + goal.label;

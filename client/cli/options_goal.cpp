@@ -7,10 +7,10 @@ namespace {
 
 // What `goal set` was given.
 struct Set {
-  std::string at, id, figure, relative_to, label, distance_to, posture;
+  std::string at, id, figure, relative_to, label, distance_to, posture, tolerance;
   std::vector<double> position, orientation, aim, along, axis{1.0, 0.0, 0.0}, plane, normal, line, direction;
   std::vector<std::string> balance;
-  double weight = 0.0, tolerance = 0.0, length = 0.0, margin = 0.0;
+  double weight = 0.0, length = 0.0, margin = 0.0;
   int priority = 0;
   bool above = false, off = false, on = false;
   DistanceTarget::Compare compare = DistanceTarget::Compare::equal;
@@ -29,6 +29,17 @@ GoalBase base_from(const std::string& text) {
     return {GoalBase::Kind::segment, name.substr(0, slash), name.substr(slash + 1), ""};
   }
   throw CLI::ValidationError("--relative-to", "is world, object:ID, segment:NAME, segment:FIGURE/NAME or sensor:ID");
+}
+
+// "0.01" or "0.01,0.01,0.2".
+GoalTolerance tolerance_from(const std::string& text) {
+  std::vector<double> sides;
+  for (const std::string& word : CLI::detail::split(text, ',')) {
+    if (!CLI::detail::lexical_cast(word, sides.emplace_back()) || sides.size() > 3)
+      throw CLI::ValidationError("--tolerance", "is a radius in metres, 0.01, or a box, 0.01,0.01,0.2");
+  }
+  if (sides.size() == 2) throw CLI::ValidationError("--tolerance", "is one number, or three");
+  return sides.size() == 1 ? GoalTolerance(sides[0]) : GoalTolerance(vector_from(sides));
 }
 
 void set_payload(const Set& set, GoalEdit& edit) {
@@ -98,7 +109,8 @@ void add_set(CLI::App* goal, Run& run) {
   auto* weight = set->add_option("--weight", args->weight, "default: 10; 0 is off")->type_name("W");
   auto* priority =
       set->add_option("--priority", args->priority, "lower ones are met first; default: 0")->type_name("N");
-  auto* tolerance = set->add_option("--tolerance", args->tolerance, "met so near, metres")->type_name("M");
+  auto* tolerance = set->add_option("--tolerance", args->tolerance, "met so near, metres; a position's may be a box")
+                        ->type_name("M|X,Y,Z");
   set->add_option("--relative-to", args->relative_to, "world, object:ID, segment:NAME, sensor:ID; default: world")
       ->type_name("FRAME");
   auto* label = set->add_option("--label", args->label, "kept with it")->type_name("TEXT");
@@ -125,7 +137,7 @@ void add_set(CLI::App* goal, Run& run) {
     if (!args->relative_to.empty()) edit.relative_to = base_from(args->relative_to);
     if (*weight) edit.weight = args->weight;
     if (*priority) edit.priority = args->priority;
-    if (*tolerance) edit.tolerance = args->tolerance;
+    if (*tolerance) edit.tolerance = tolerance_from(args->tolerance);
     if (*label) edit.label = args->label;
     if (*off || *on) edit.enabled = args->on;
     run = [request](const Session& s) { return set_entity(s, request); };

@@ -23,8 +23,16 @@ std::optional<Error> check_numbers(const Goal& goal) {
   }
   if (goal.priority < -kMaxPriority || goal.priority > kMaxPriority)
     return Error{"out_of_range", "the priority is out of range", "/priority", "-100 to 100; lower is met first"};
-  if (!(goal.tolerance >= 0.0 && goal.tolerance <= kMaxCoordinate))
-    return Error{"out_of_range", "the tolerance is out of range", "/tolerance", "0 or more, in metres"};
+  const GoalTolerance& tolerance = goal.tolerance;
+  const Vec3 sides = tolerance.box.value_or(Vec3(tolerance.radius));
+  for (int k = 0; k < 3; ++k) {
+    if (!(sides[k] >= 0.0 && sides[k] <= kMaxCoordinate)) {
+      return Error{"out_of_range", "the tolerance is out of range",
+                   tolerance.box ? "/tolerance/" + std::to_string(k) : "/tolerance", "0 or more, in metres"};
+    }
+  }
+  if (tolerance.box && !position_of(goal.payload))
+    return Error{"invalid_params", "only a position has a box of tolerance", "/tolerance", "a radius in metres, 0.01"};
   return {};
 }
 

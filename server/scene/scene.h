@@ -140,15 +140,18 @@ class Scene {
     Change before;      // `other`: what stood there
   };
   Revision count();
+  // The scene's after the next edit. What comes under an id begins there, so that no revision ever comes twice under
+  // it.
+  Revision coming() const { return (open_ ? open_->revision : revision_) + 1; }
   // The entity's own after the next edit of it: only grows, also where it is removed and made anew in one edit.
   template <class Entity>
   Revision next_revision(std::map<std::string, ChangedEntity<Entity>> Change::*part,
                          const std::map<std::string, Entity>& entities, const std::string& id) const {
     if (const auto found = entities.find(id); found != entities.end()) return found->second.revision + 1;
-    if (!open_) return 1;
+    if (!open_) return coming();
     const auto& kept = open_->before.*part;
     const auto removed = kept.find(id);
-    return removed != kept.end() && removed->second.other ? removed->second.other->revision + 1 : 1;
+    return removed != kept.end() && removed->second.other ? removed->second.other->revision + 1 : coming();
   }
   template <class Entity>
   void keep(std::map<std::string, ChangedEntity<Entity>> Change::*part, const std::map<std::string, Entity>& entities,

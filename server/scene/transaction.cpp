@@ -55,7 +55,7 @@ std::optional<Conflict> compare(const Changed<Entity>& part, const Entities<Enti
 
 // What is to stand there and what stands there change places. Revisions only grow.
 template <class Entity>
-void swap(Changed<Entity>& part, Entities<Entity>& entities) {
+void swap(Changed<Entity>& part, Entities<Entity>& entities, Revision coming) {
   for (auto& [id, changed] : part) {
     const auto present = entities.find(id);
     std::optional<Entity> gone;
@@ -64,7 +64,7 @@ void swap(Changed<Entity>& part, Entities<Entity>& entities) {
       entities.erase(present);
     }
     if (changed.other) {
-      changed.other->revision = std::max(changed.other->revision, gone ? gone->revision : 0) + 1;
+      changed.other->revision = gone ? std::max(changed.other->revision, gone->revision) + 1 : coming;
       entities.emplace(id, *changed.other);
     }
     changed.expected = changed.other ? changed.other->content : 0;
@@ -236,11 +236,11 @@ void Scene::exchange(Change& change) {
     if (const auto figure = figures_.find(id); figure != figures_.end())
       present[id] = {figure->second.q, figure->second.pose, figure->second.posed};
   }
-  swap(change.figures, figures_);
-  swap(change.objects, objects_);
-  swap(change.goals, goals_);
-  swap(change.bindings, bindings_);
-  swap(change.cameras, cameras_);
+  swap(change.figures, figures_, coming());
+  swap(change.objects, objects_, coming());
+  swap(change.goals, goals_, coming());
+  swap(change.bindings, bindings_, coming());
+  swap(change.cameras, cameras_, coming());
   for (auto& [id, pose] : change.poses) {
     const auto now = figures_.find(id);
     const auto was = present.find(id);

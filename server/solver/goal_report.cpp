@@ -23,7 +23,7 @@ class Reporter {
     report.force = (report.target - report.touch) * weight;
     if (weight == 0.0) {
       report.state = GoalState::off;
-    } else if (report.error <= std::max(goal.tolerance, kReached)) {
+    } else if (over_tolerance(goal.tolerance, report.target - report.touch, kReached) <= 1.0) {
       report.state = GoalState::reached;
     } else {
       report.state = stuck(goal, report) ? GoalState::unreachable : GoalState::balanced;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "common/goal.h"
 #include "common/math.h"
 
 namespace posed {
@@ -13,7 +14,7 @@ struct ReachGoal {
   Vec3 point{0.0, 0.0, 0.0};   // segment's frame, m
   Vec3 target{0.0, 0.0, 0.0};  // world, m
   double weight = 10.0;        // 0 (or less, or not a number) is off
-  double tolerance = 0.0;      // m
+  GoalTolerance tolerance;     // a box has the world's axes
   bool enabled = true;
 };
 

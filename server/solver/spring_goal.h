@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "common/goal.h"
 #include "common/math.h"
 #include "server/solver/body_tree.h"
 
@@ -81,7 +82,7 @@ struct SpringGoal {
   double orientation_weight = 10.0;  // of a pose goal's orientation; of no other kind
   // Lower is first: a goal never gives way to one of a higher number. Pins are goals of kPinPriority.
   int priority = 0;
-  double tolerance = 0.0;
+  GoalTolerance tolerance;
   bool enabled = true;
 };
 

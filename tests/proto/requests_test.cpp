@@ -13,7 +13,7 @@ std::vector<Params> full_messages() {
   goal.at = Attachment{"right_hand", Vec3(0.1, 1.0 / 3.0, -1e-9), ""};
   goal.position = Vec3(0.5, -0.3, 1e6);
   goal.weight = 0.1;
-  goal.tolerance = Patched<double>::reset();
+  goal.tolerance = Patched<GoalTolerance>::reset();
   goal.enabled = false;
   goal.label = std::string("\xc3\xa9\"\\\n");
   goal.user = std::string(R"({"b":[1,2.5,null],"a":{}})");
@@ -25,6 +25,7 @@ std::vector<Params> full_messages() {
   both.orientation = 0.5;
   pose.weight = both;
   pose.priority = -3;
+  pose.tolerance = GoalTolerance(Vec3(0.01, 0.0, 0.2));
   BindingEdit binding;
   binding.id = "b1";
   binding.sensor = "liberty:2";

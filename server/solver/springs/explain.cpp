@@ -83,7 +83,7 @@ double Explainer::explain(const Plan& plan, std::span<const SpringGoal> goals,
 }
 
 void Explainer::compare(const SpringGoal& goal, std::size_t index, double error, double reached) {
-  apart_[index] = std::max(apart_[index], error / std::max(goal.tolerance, reached));
+  apart_[index] = std::max(apart_[index], error / std::max(goal.tolerance.radius, reached));
 }
 
 // Error, force, touch and target of one term; a pose goal's second adds to its first.
@@ -99,7 +99,7 @@ void Explainer::report(const Plan& plan, const Term& term, const SpringGoal& goa
   out.error = std::sqrt(out.error * out.error + square);
   const bool is_turn = term.kind == TermKind::turn || term.kind == TermKind::aim;
   costs_[static_cast<std::size_t>(term.goal)] += term.weight * square;
-  if (term.weight > 0.0)
+  if (term.weight > 0.0 && term.kind != TermKind::point)
     compare(goal, static_cast<std::size_t>(term.goal), std::sqrt(square),
             is_turn ? kReachedTurn * term.lever : kReachedPlace);
   if (term.kind == TermKind::balance) {
@@ -110,9 +110,14 @@ void Explainer::report(const Plan& plan, const Term& term, const SpringGoal& goa
   const Vec3 touch = probe_.point(term.link, term.point);
   const Vec3 place = base * term.place, way = base.rotation * term.direction;
   switch (term.kind) {
-    case TermKind::point:
+    case TermKind::point: {
       out.target = place;
+      const Quat& axes = term.base >= 0 ? base.rotation : goal.world_from_base.rotation;
+      double& apart = apart_[static_cast<std::size_t>(term.goal)];
+      if (term.weight > 0.0)
+        apart = std::max(apart, over_tolerance(goal.tolerance, glm::conjugate(axes) * (touch - place), kReachedPlace));
       break;
+    }
     case TermKind::plane:
       out.target = touch - way * error.x;
       break;
@@ -165,7 +170,7 @@ void Explainer::report_posture(const Plan& plan, const State& state, const Postu
     }
     square += here;
     const bool slides = link.dofs > 0 && plan.dofs[first].kind == DofKind::along_axis;
-    if (std::sqrt(square) > goal.tolerance) compare(goal, index, off, slides ? kReachedPlace : kReachedTurn);
+    if (std::sqrt(square) > goal.tolerance.radius) compare(goal, index, off, slides ? kReachedPlace : kReachedTurn);
   }
   out.error = std::sqrt(square);
   costs_[index] = goal.weight * square;

@@ -93,6 +93,7 @@ TEST_F(CameraEdits, ABoundCameraFollowsAndStaysWhereItIsLetGo) {
   const Revision revision = scene.revision();
   Frame moved = frame({4, 5, 6});
   moved.samples[0].rotation = quat_about(kY, 0.5);
+  const Revision came = camera("main").revision;
   const Scene::Followed followed = scene.follow(moved);
   EXPECT_TRUE(followed.cameras);
   EXPECT_FALSE(followed.pose) << "no figure is pulled: nothing to solve";
@@ -106,7 +107,7 @@ TEST_F(CameraEdits, ABoundCameraFollowsAndStaysWhereItIsLetGo) {
   });
   ASSERT_TRUE(scene.remove_binding("eye", {}));
   EXPECT_EQ(camera("main").camera.base_from_camera.position, Vec3(4, 5, 6));
-  EXPECT_EQ(camera("main").revision, 2u);
+  EXPECT_EQ(camera("main").revision, came + 1);
   ASSERT_TRUE(scene.set_binding(edit, {}));
   expect_edited("main", 0, [&] { return scene.remove_camera("main", {}); });
   EXPECT_TRUE(scene.bindings().empty()) << "what is bound to it goes with it";

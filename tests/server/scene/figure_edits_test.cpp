@@ -27,10 +27,11 @@ TEST_F(FigureEdits, AnotherStatureKeepsPoseGoalsAndBindings) {
   ASSERT_TRUE(scene.set_q("body", q, {}));
   ASSERT_NE(q, start_pose(*scene.figures().at("body").tree));
   const Vec3 touch = scene.goals().at("g1").at.point;
+  const Revision came = scene.goals().at("g1").revision;
 
   expect_edited("body", 3, [&] { return scene.set_figure(tempus_entry("body", 1.4), {}); });
   EXPECT_EQ(scene.figures().at("body").q, q);
-  EXPECT_EQ(scene.goals().at("g1").revision, 1u);
+  EXPECT_EQ(scene.goals().at("g1").revision, came);
   EXPECT_TRUE(scene.bindings().contains("b1"));
   // The goal's place is the new hand's touch point.
   EXPECT_NEAR(glm::length(scene.goals().at("g1").at.point), glm::length(touch) * 1.4 / 1.75, 1e-12);

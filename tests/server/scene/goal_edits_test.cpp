@@ -20,7 +20,7 @@ TEST_F(GoalEdits, WithoutAnIdThePlaceNamesIt) {
 TEST_F(GoalEdits, ANewGoalHasTheDefaults) {
   ASSERT_TRUE(scene.set_goal(goal_edit("g1"), {}));
   EXPECT_EQ(goal("g1").weight, 10.0);
-  EXPECT_EQ(goal("g1").tolerance, 0.0);
+  EXPECT_EQ(goal("g1").tolerance.radius, 0.0);
   EXPECT_TRUE(goal("g1").enabled);
   EXPECT_EQ(goal("g1").figure, "body");
 }
@@ -40,7 +40,7 @@ TEST_F(GoalEdits, OnlyTheNamedFieldsChange) {
   EXPECT_EQ(position("g1"), Vec3(1, 2, 3));
   EXPECT_EQ(goal("g1").at, *first.at);
   EXPECT_EQ(goal("g1").weight, 40.0);
-  EXPECT_EQ(goal("g1").tolerance, 0.01);
+  EXPECT_EQ(goal("g1").tolerance.radius, 0.01);
   EXPECT_FALSE(goal("g1").enabled);
   EXPECT_EQ(goal("g1").label, "reach");
   EXPECT_EQ(goal("g1").user, "[1]");
@@ -57,12 +57,12 @@ TEST_F(GoalEdits, NullRestoresTheDefaults) {
   GoalEdit null;
   null.id = "g1";
   null.weight = Patched<GoalWeight>::reset();
-  null.tolerance = Patched<double>::reset();
+  null.tolerance = Patched<GoalTolerance>::reset();
   null.enabled = Patched<bool>::reset();
   null.label = null.user = Patched<std::string>::reset();
   ASSERT_TRUE(scene.set_goal(null, {}));
   EXPECT_EQ(goal("g1").weight, 10.0);
-  EXPECT_EQ(goal("g1").tolerance, 0.0);
+  EXPECT_EQ(goal("g1").tolerance.radius, 0.0);
   EXPECT_TRUE(goal("g1").enabled);
   EXPECT_EQ(goal("g1").label, "");
   EXPECT_EQ(goal("g1").user, "");
@@ -106,6 +106,14 @@ TEST_F(GoalEdits, NumbersHaveRanges) {
   GoalEdit tolerance = goal_edit("g1");
   tolerance.tolerance = -1.0;
   expect_refused("out_of_range", "/tolerance", [&] { return scene.set_goal(tolerance, {}); });
+  tolerance.tolerance = GoalTolerance(Vec3(0.1, 0.1, -0.1));
+  expect_refused("out_of_range", "/tolerance/2", [&] { return scene.set_goal(tolerance, {}); });
+  GoalEdit box;
+  box.id = "g2";
+  box.at = Attachment{"head", {}, ""};
+  box.orientation = OrientationTarget{Quat(1, 0, 0, 0)};
+  box.tolerance = GoalTolerance(Vec3(0.1));
+  expect_refused("invalid_params", "/tolerance", [&] { return scene.set_goal(box, {}); });
   expect_refused("out_of_range", "/position/1", [&] {
     return scene.set_goal(goal_edit("g1", "head", {0, -2e6, 0}), {});
   });
@@ -128,9 +136,9 @@ TEST_F(GoalEdits, ComparesTheGoalsOwnRevision) {
   expect_edited("g1", 1, [&] { return scene.set_goal(goal_edit("g1"), 0); });
   ASSERT_TRUE(scene.set_goal(goal_edit("g2"), {}));
   expect_refused("revision_mismatch", "/if_revision", [&] { return scene.set_goal(goal_edit("g1"), 0); });
-  expect_edited("g1", 2, [&] { return scene.set_goal(goal_edit("g1"), 1); });
-  expect_refused("revision_mismatch", "/if_revision", [&] { return scene.remove_goal("g1", 1); });
-  expect_edited("g1", 0, [&] { return scene.remove_goal("g1", 2); });
+  expect_edited("g1", 2, [&] { return scene.set_goal(goal_edit("g1"), nth("g1", 1)); });
+  expect_refused("revision_mismatch", "/if_revision", [&] { return scene.remove_goal("g1", nth("g1", 1)); });
+  expect_edited("g1", 0, [&] { return scene.remove_goal("g1", nth("g1", 2)); });
 }
 
 TEST_F(GoalEdits, RemovingAGoalRemovesWhatIsBoundToIt) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <sstream>
 #include <string>
 
@@ -14,7 +15,9 @@ namespace posed {
 
 class SceneTest : public ::testing::Test {
  protected:
-  SceneTest() { EXPECT_TRUE(scene.set_figure(tempus_entry("body"), {})); }
+  SceneTest() {
+    expect_edited("body", 1, [&] { return scene.set_figure(tempus_entry("body"), {}); });
+  }
 
   static FigureEntry tempus_entry(std::string id, double stature = 1.75) {
     FigureEntry entry;
@@ -99,19 +102,26 @@ class SceneTest : public ::testing::Test {
     EXPECT_EQ(snapshot(), before) << code;
   }
 
-  // `edit` must succeed, count the scene up by one, and say these revisions.
+  // `edit` must succeed, count the scene up by one, and be the entity's nth; with the first it comes.
   template <class F>
-  void expect_edited(const char* id, Revision entity_revision, F edit) {
+  void expect_edited(const char* id, Revision nth, F edit) {
     const Revision before = scene.revision();
     const Result<Edited> edited = edit();
     ASSERT_TRUE(edited) << edited.error().message;
     EXPECT_EQ(edited->id, id);
     EXPECT_EQ(edited->revision, before + 1);
-    EXPECT_EQ(edited->entity_revision, entity_revision);
+    if (nth == 1) came_[id] = edited->revision;
+    EXPECT_EQ(edited->entity_revision, nth == 0 ? 0 : came_[id] + nth - 1);
     EXPECT_EQ(scene.revision(), before + 1);
   }
 
+  // The revision of an entity's nth edit; of what `expect_edited` saw come.
+  Revision nth(const char* id, Revision n) const { return came_.at(id) + n - 1; }
+
   Scene scene;
+
+ private:
+  std::map<std::string, Revision> came_;
 };
 
 }  // namespace posed

@@ -39,6 +39,17 @@ TEST(Explain, ToleranceCountsAsReached) {
   EXPECT_EQ(b.solve().goals[1].state, GoalState::reached);
 }
 
+// The chain ends 0.3 m before the target, along the base's own -y.
+TEST(Explain, ABoxOfToleranceHasTheBasesAxes) {
+  SpringBench b(test::build(test::column(4, 0.5, JointType::fixed)));
+  SpringGoal& goal = b.pull("s3", {0, -1.8, 0.5});
+  goal.world_from_base.rotation = quat_about(kZ, M_PI / 2);
+  goal.tolerance = GoalTolerance(Vec3(0.01, 0.31, 0.01));
+  EXPECT_EQ(b.solve().goals[0].state, GoalState::reached);
+  goal.tolerance = GoalTolerance(Vec3(0.31, 0.29, 0.31));
+  EXPECT_EQ(b.solve().goals[0].state, GoalState::unreachable);
+}
+
 TEST(Explain, BeyondAFixedRootIsUnreachable) {
   SpringBench b(test::build(test::column(4, 0.5, JointType::fixed)));
   b.pull("s3", {5, 0, 0.5});
