@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/math.h"
 #include "common/patched.h"
@@ -32,6 +33,18 @@ struct Clutch {
   int button = 0;  // 0 is the first
 };
 
+// What a button of the sensor does when it is pressed.
+struct ButtonAction {
+  enum class Do {
+    recenter,  // relative mode: back to where the document has the target, and on from there
+    toggle,    // the target stays where it is, or follows again
+    save       // the scene is saved as it stands
+  };
+  int button = 0;  // 0 is the first
+  Do act = Do::recenter;
+  bool operator==(const ButtonAction&) const = default;
+};
+
 // The target as the sensor sees it: how the one is fixed to the other.
 struct SensorOffset {
   Vec3 position{0.0, 0.0, 0.0};
@@ -57,6 +70,7 @@ struct Binding {
   std::optional<Axes> axes;  // those of the target that follow the sensor; in a scene always said
   Mode mode = Mode::absolute;
   std::optional<Clutch> clutch;
+  std::vector<ButtonAction> buttons;
   double scale = 1.0;  // of positions
   std::optional<SensorOffset> offset;
   std::optional<BindingFilter> filter;
@@ -71,6 +85,7 @@ struct BindingEdit {
   Patched<Axes> axes;
   Patched<Binding::Mode> mode;
   Patched<Clutch> clutch;
+  Patched<std::vector<ButtonAction>> buttons;
   Patched<double> scale;
   Patched<SensorOffset> offset;
   Patched<BindingFilter> filter;

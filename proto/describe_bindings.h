@@ -40,6 +40,11 @@ void describe(V& v, Clutch& m) {
   v.required("button", m.button);
 }
 template <class V>
+void describe(V& v, ButtonAction& m) {
+  v.required("button", m.button);
+  v.required("do", m.act);
+}
+template <class V>
 void describe(V& v, SensorOffset& m) {
   v.optional("position", m.position);
   v.optional("quat_xyzw", m.rotation);
@@ -63,6 +68,7 @@ void describe_binding(V& v, Binding& m) {
   v.optional("axes", m.axes);
   v.optional("mode", m.mode);
   v.optional("clutch", m.clutch);
+  if (V::kReads || !m.buttons.empty()) v.optional("buttons", m.buttons);
   v.optional("scale", m.scale);
   v.optional("offset", m.offset);
   v.optional("filter", m.filter);
@@ -84,6 +90,7 @@ void describe(V& v, BindingSet& m) {
   v.optional("axes", m.edit.axes);
   v.optional("mode", m.edit.mode);
   v.optional("clutch", m.edit.clutch);
+  v.optional("buttons", m.edit.buttons);
   v.optional("scale", m.edit.scale);
   v.optional("offset", m.edit.offset);
   v.optional("filter", m.edit.filter);

@@ -118,6 +118,13 @@ void describe(V& v, TrackerBoresight& m) {
   v.optional("quat_xyzw", m.rotation);
 }
 
+template <class V>
+void describe(V& v, TrackerForget& m) {
+  v.required("tracker", m.tracker);
+  v.required("name", m.name);
+  describe_forced(v, m);
+}
+
 // ---- results ----
 
 template <class V>

@@ -48,6 +48,10 @@ struct EnumNames<Binding::Mode> {
   static constexpr std::array names{"absolute", "relative"};
 };
 template <>
+struct EnumNames<ButtonAction::Do> {
+  static constexpr std::array names{"recenter", "toggle", "save"};
+};
+template <>
 struct EnumNames<GoalState> {
   static constexpr std::array names{"off", "reached", "unreachable", "limited", "balanced"};
 };

@@ -271,6 +271,12 @@ struct TrackerBoresight {
   Quat rotation{1.0, 0.0, 0.0, 0.0};  // as which the present orientation is to be read, in the world
 };
 
+// A calibration is kept no longer.
+struct TrackerForget {
+  std::string tracker, name;
+  bool force = false;
+};
+
 enum class Stream { pose, tracker, scene, stats, camera };
 inline constexpr int kStreams = 5;
 
@@ -316,8 +322,8 @@ using Params =
                  CameraGet, CameraList, CameraRemove, JointSet, JointGet, PoseGet, PoseSet, PoseReset, PoseMirror,
                  SolverGet, SolverSet, Solve, SolveBatch, SceneGet, SceneNew, SceneList, SceneSave, SceneOpen,
                  SceneRemove, TrackerList, TrackerGrab, TrackerRelease, TrackerConfigure, TrackerReset, TrackerTouch,
-                 TrackerAlign, TrackerTip, TrackerBoresight, StreamSubscribe, StreamUnsubscribe, StreamAck, EditApply,
-                 EditUndo, EditRedo, EditHistory>;
+                 TrackerAlign, TrackerTip, TrackerBoresight, TrackerForget, StreamSubscribe, StreamUnsubscribe,
+                 StreamAck, EditApply, EditUndo, EditRedo, EditHistory>;
 
 struct Edit {
   std::optional<std::uint64_t> if_revision;  // edits of one entity only

@@ -86,6 +86,7 @@ constexpr std::array kMethods{
     method<TrackerAlign>("tracker.align"),
     method<TrackerTip>("tracker.tip"),
     method<TrackerBoresight>("tracker.boresight"),
+    method<TrackerForget>("tracker.forget"),
     method<StreamSubscribe>("stream.subscribe"),
     method<StreamUnsubscribe>("stream.unsubscribe"),
     method<StreamAck>("stream.ack"),

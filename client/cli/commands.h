@@ -95,6 +95,7 @@ int align_tracker(const Session& session, const Align& wish);
 int calibrate_tip(const Session& session, const proto::TrackerTip& tip);
 int check_tracker(const Session& session, proto::TrackerTouch touch);  // no point: the alignment's first
 int boresight_tracker(const Session& session, const proto::TrackerBoresight& boresight);
+int forget_calibration(const Session& session, const proto::TrackerForget& forget);
 int bind_sensor(const Session& session, const proto::BindingSet& binding);
 int unbind_sensor(const Session& session, std::string id);
 

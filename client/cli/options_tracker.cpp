@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <memory>
 #include <tuple>
 
@@ -151,6 +152,14 @@ void add_calibration(CLI::App* tracker, Run& run) {
     m.rotation = *quat ? quat_from_xyzw(args->quat) : quat_identity();
     run = [m](const Session& s) { return boresight_tracker(s, m); };
   });
+
+  auto forgotten = std::make_shared<proto::TrackerForget>();
+  auto* forget = example(tracker->add_subcommand("forget", "keep a calibration no longer"),
+                         "posectl tracker forget simulated monday");
+  forget->add_option("tracker", forgotten->tracker, "as tracker list names it")->required();
+  forget->add_option("calibration", forgotten->name, "its name")->required();
+  forget->add_flag("--force", forgotten->force, "whoever holds the tracker");
+  forget->callback([=, &run] { run = [m = *forgotten](const Session& s) { return forget_calibration(s, m); }; });
 }
 
 BindingTarget read_target(const std::string& text) {
@@ -187,13 +196,34 @@ Axes read_axes(const std::vector<std::string>& words) {
   return axes;
 }
 
+// "1=recenter"
+std::vector<ButtonAction> read_buttons(const std::vector<std::string>& words) {
+  std::vector<ButtonAction> buttons;
+  for (const std::string& word : words) {
+    ButtonAction& action = buttons.emplace_back();
+    int end = 0;
+    const bool number = std::sscanf(word.c_str(), "%d=%n", &action.button, &end) == 1 && end > 0;
+    const std::string act = number ? word.substr(static_cast<std::size_t>(end)) : "";
+    if (act == "recenter") {
+      action.act = ButtonAction::Do::recenter;
+    } else if (act == "toggle") {
+      action.act = ButtonAction::Do::toggle;
+    } else if (act == "save") {
+      action.act = ButtonAction::Do::save;
+    } else {
+      throw CLI::ValidationError(word + " names no button and what it does: 1=recenter, 1=toggle or 1=save", 1);
+    }
+  }
+  return buttons;
+}
+
 void add_bindings(CLI::App* tracker, Run& run) {
   struct Bind {
     std::string sensor, target, id;
     bool relative = false;
     int clutch = 0;
     double scale = 1.0, predict = 0.0;
-    std::vector<std::string> axes;
+    std::vector<std::string> axes, buttons;
     std::vector<double> offset, filter;
   };
   auto args = std::make_shared<Bind>();
@@ -206,6 +236,8 @@ void add_bindings(CLI::App* tracker, Run& run) {
   auto* clutch = bind->add_option("--clutch", args->clutch, "only while this button is held; 0 is the first")
                      ->check(CLI::NonNegativeNumber)
                      ->type_name("BUTTON");
+  auto* buttons = bind->add_option("--button", args->buttons, "what it does: recenter, toggle or save; 0 is the first")
+                      ->type_name("BUTTON=DO");
   bind->add_option("--scale", args->scale, "of positions")->type_name("S");
   auto* axes = bind->add_option("--axes", args->axes, "as in x,y,rz; default: all it has")->delimiter(',');
   auto* offset = add_point(bind, "--offset", args->offset, "of the target, as the sensor sees it");
@@ -220,6 +252,7 @@ void add_bindings(CLI::App* tracker, Run& run) {
     m.edit.to = read_target(args->target);
     m.edit.mode = args->relative ? Binding::Mode::relative : Binding::Mode::absolute;
     if (*clutch) m.edit.clutch = Clutch{args->clutch};
+    if (*buttons) m.edit.buttons = read_buttons(args->buttons);
     m.edit.scale = args->scale;
     if (*axes) m.edit.axes = read_axes(args->axes);
     if (*offset) m.edit.offset = SensorOffset{vector_from(args->offset), quat_identity()};

@@ -172,4 +172,8 @@ int boresight_tracker(const Session& session, const proto::TrackerBoresight& bor
   return request<proto::CalibrationResult>(session, boresight, print_calibration);
 }
 
+int forget_calibration(const Session& session, const proto::TrackerForget& forget) {
+  return done(session, forget, "calibration " + forget.name + " of " + forget.tracker + " is gone");
+}
+
 }  // namespace posed::cli

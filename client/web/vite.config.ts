@@ -1,8 +1,10 @@
 import { defineConfig } from "vitest/config";
+import { packed } from "./packed";
 
 export default defineConfig({
   // Relative, so that the page works under any path a proxy puts it at.
   base: "./",
+  plugins: [packed()],
   build: {
     target: "es2022",
     // three is most of the page; one chunk is one request.

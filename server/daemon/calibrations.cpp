@@ -8,6 +8,13 @@ namespace {
 
 const std::string kFolder = "/calibrations/";
 
+Error unknown(const std::string& tracker, const Calibrations::OfTracker& of_tracker, const std::string& name,
+              const char* path) {
+  std::string hint = did_you_mean(name, keys(of_tracker.kept));
+  return {"unknown_calibration", "no calibration of " + tracker + " is called " + name.substr(0, 64), path,
+          hint.empty() ? "tracker.align makes one" : hint};
+}
+
 }  // namespace
 
 const Calibrations::OfTracker& Calibrations::of(const std::string& tracker) const {
@@ -41,12 +48,19 @@ void Calibrations::put(Calibration calibration) {
 
 Status Calibrations::choose(const std::string& tracker, const std::string& name) {
   OfTracker& of_tracker = trackers_[tracker];
-  if (!name.empty() && !of_tracker.kept.contains(name)) {
-    std::string hint = did_you_mean(name, keys(of_tracker.kept));
-    return Error{"unknown_calibration", "no calibration of " + tracker + " is called " + name.substr(0, 64),
-                 "/calibration", hint.empty() ? "tracker.align makes one" : hint};
-  }
+  if (!name.empty() && !of_tracker.kept.contains(name)) return unknown(tracker, of_tracker, name, "/calibration");
   of_tracker.chosen = name;
+  return Ok{};
+}
+
+Status Calibrations::forget(const std::string& tracker, const std::string& name) {
+  OfTracker& of_tracker = trackers_[tracker];
+  if (!of_tracker.kept.contains(name)) return unknown(tracker, of_tracker, name, "/name");
+  if (of_tracker.chosen == name) {
+    return Error{"in_use", tracker + " goes by calibration " + name, "/name",
+                 "choose another one or none first: tracker.configure with \"calibration\":null"};
+  }
+  of_tracker.kept.erase(name);
   return Ok{};
 }
 
@@ -54,9 +68,13 @@ void Calibrations::restore(const std::string& tracker, OfTracker before) {
   trackers_.insert_or_assign(tracker, std::move(before));
 }
 
+std::string Calibrations::path(const std::string& tracker, const std::string& name) {
+  return kFolder + tracker + "/" + name;
+}
+
 std::vector<std::string> Calibrations::paths(const std::string& tracker) const {
   std::vector<std::string> paths{kFolder + tracker};
-  for (const auto& [name, calibration] : of(tracker).kept) paths.push_back(kFolder + tracker + "/" + name);
+  for (const auto& [name, calibration] : of(tracker).kept) paths.push_back(path(tracker, name));
   return paths;
 }
 

@@ -29,10 +29,13 @@ class Calibrations {
   void put(Calibration calibration);  // and chooses it
   // Empty: none. Errors: "unknown_calibration", path "/calibration".
   Status choose(const std::string& tracker, const std::string& name);
+  // Errors: "unknown_calibration"; "in_use" for the chosen one; path "/name".
+  Status forget(const std::string& tracker, const std::string& name);
   void restore(const std::string& tracker, OfTracker before);
 
   // ---- as the store has them: "/calibrations/TRACKER/NAME", and in "/calibrations/TRACKER" the chosen one's name ----
 
+  static std::string path(const std::string& tracker, const std::string& name);
   std::vector<std::string> paths(const std::string& tracker) const;
   std::vector<std::string> paths() const;
   // None where nothing is there.

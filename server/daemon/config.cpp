@@ -63,7 +63,8 @@ std::optional<Config> read_config(int argc, const char* const* argv, int& exit_c
   app.get_config_formatter_base()->parentSeparator('\x1f');
   app.add_option("--listen", listen, "HOST:PORT of JSON lines, WebSocket and the viewer")->capture_default_str();
   app.add_option("--tracker", config.trackers,
-                 "KIND[:ARG]: simulated[:SEED], liberty, patriot, fastrak, isotrak, viper, spacemouse, each [:usb] or "
+                 "KIND[:ARG]: simulated[:SEED], liberty, patriot, fastrak, isotrak, viper, spacemouse, each "
+                 "[:usb[:SERIAL or PORT]] or "
                  "[:/dev/ttyS0[@BAUD]] as it has it; replay:FILE[@fast]; may be given again")
       ->allow_extra_args(false);
   app.add_option("--capture", config.captures,

@@ -1,6 +1,8 @@
 #include "server/daemon/pipeline.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <ctime>
 #include <thread>
 #include <utility>
 
@@ -92,11 +94,30 @@ void Pipeline::on_frame(Frame frame) {
     frame.sample_t_ns = tracker.host_clock.measured(frame.samples[0].device_t_ns, frame.t_ns);
   publisher.publish_frame(frame);
   const Scene::Followed moved = scene.follow(frame);
+  for (const std::string& binding : moved.saving) save_as_it_stands(binding);
   if (moved.cameras && !moved.pose) publisher.publish_cameras(frame.t_ns);
   if (!moved.pose) return;  // else the cameras come with the pose
   if (!sample_t_ns_) sample_t_ns_ = frame.t_ns;
   pose_t_ns_ = frame.t_ns;
   wake_solver(true);
+}
+
+// Under the binding's name and the time, to the millisecond, since nobody is there to type a name.
+void Pipeline::save_as_it_stands(const std::string& binding) {
+  const Nanoseconds now = utc_now();
+  const std::time_t seconds = now / 1'000'000'000;
+  std::tm utc{};
+  ::gmtime_r(&seconds, &utc);
+  char stamp[40];
+  const std::size_t size = std::strftime(stamp, sizeof stamp, "-%Y%m%dT%H%M%S", &utc);
+  std::snprintf(stamp + size, sizeof stamp - size, ".%03dZ", static_cast<int>(now / 1'000'000 % 1000));
+  const std::string name = binding.substr(0, 40) + stamp;
+  store.save(name, proto::encode_scene(scene.as_it_stands()), [binding, name](const Status& saved) {
+    if (saved)
+      log_info("binding " + binding + ": a button has saved the scene as " + name);
+    else
+      log_warning("binding " + binding + ": a button could not save the scene: " + saved.error().message);
+  });
 }
 
 void Pipeline::on_line(net::ConnectionId connection, proto::Line line, Nanoseconds receive_t_ns) {

@@ -122,6 +122,7 @@ class Pipeline {
     Responder responder;
   };
 
+  void save_as_it_stands(const std::string& binding);
   void wake_solver(bool live_only, bool explore = true);
   void solve();
   void go_on();

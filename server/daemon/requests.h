@@ -30,6 +30,7 @@ class Requests {
   void on(const proto::TrackerAlign&, Responder);
   void on(const proto::TrackerTip&, Responder);
   void on(const proto::TrackerBoresight&, Responder);
+  void on(const proto::TrackerForget&, Responder);
 
   void on(const proto::FigureGet&, Responder);
   void on(const proto::FigureList&, Responder);

@@ -211,6 +211,13 @@ void Requests::on(const proto::TrackerBoresight& m, Responder responder) {
   if (!begun) responder.params_error(begun.error());
 }
 
+void Requests::on(const proto::TrackerForget& m, Responder responder) {
+  if (const Status free = may_touch(m.tracker, m.force); !free) return responder.params_error(free.error());
+  const Calibrations::OfTracker before = p_.calibrations.of(m.tracker);
+  if (const Status gone = p_.calibrations.forget(m.tracker, m.name); !gone) return responder.params_error(gone.error());
+  keep_calibrations(m.tracker, before, std::move(responder), proto::encode_result(proto::EmptyResult{}));
+}
+
 Status Requests::check_name(const std::string& name) const {
   if (name.empty() || valid_id(name)) return Ok{};
   return Error{"bad_id", "the name is no id", "/name", "letters, digits, '_', '.' and '-', at most 64"};
@@ -263,6 +270,9 @@ void Requests::keep_calibrations(const std::string& tracker, Calibrations::OfTra
                                  const std::string& result) {
   Done done;
   done.entities = p_.calibrations.paths(tracker);
+  for (const auto& [name, calibration] : before.kept) {
+    if (!p_.calibrations.of(tracker).kept.contains(name)) done.entities.push_back(Calibrations::path(tracker, name));
+  }
   p_.journal.add(std::move(done), "");
   p_.journal.when_stored(
       [&p = p_, tracker, before = std::move(before), responder, result](const Status& stored) mutable {

@@ -17,6 +17,14 @@ std::string text(const boost::beast::string_view& view) {
   return std::string(view.data(), view.size());
 }
 
+// A header that may come in several lines is one list.
+std::string list(const http::request<http::empty_body>& message, http::field name) {
+  std::string all;
+  const auto lines = message.equal_range(name);
+  for (auto it = lines.first; it != lines.second; ++it) all += (all.empty() ? "" : ",") + text(it->value());
+  return all;
+}
+
 HttpRequest request_of(const http::request<http::empty_body>& message) {
   HttpRequest request;
   request.method = text(message.method_string());
@@ -26,8 +34,8 @@ HttpRequest request_of(const http::request<http::empty_body>& message) {
   request.if_none_match = text(message[http::field::if_none_match]);
   request.authorization = text(message[http::field::authorization]);
   request.upgrade = text(message[http::field::upgrade]);
-  const auto connections = message.equal_range(http::field::connection);
-  for (auto it = connections.first; it != connections.second; ++it) request.connection += text(it->value()) + ',';
+  request.connection = list(message, http::field::connection);
+  request.accept_encoding = list(message, http::field::accept_encoding);
   request.websocket_key = text(message[http::field::sec_websocket_key]);
   request.websocket_version = text(message[http::field::sec_websocket_version]);
   return request;

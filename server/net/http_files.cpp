@@ -18,6 +18,13 @@ int hex_digit(char c) {
   return -1;
 }
 
+SharedLine read(const fs::path& file, std::uintmax_t size) {
+  std::string bytes(static_cast<std::size_t>(size), '\0');
+  std::ifstream in(file, std::ios::binary);
+  if (!in.read(bytes.data(), static_cast<std::streamsize>(size))) return nullptr;
+  return std::make_shared<const std::string>(std::move(bytes));
+}
+
 }  // namespace
 
 std::optional<std::string> plain_path(std::string_view target) {
@@ -79,45 +86,52 @@ bool HttpFiles::present() const {
   return !root_.empty() && fs::is_regular_file(root_ / "index.html", error);
 }
 
-std::optional<HttpFiles::File> HttpFiles::find(std::string_view target) {
-  const auto path = plain_path(target);
-  if (!path || root_.empty()) return std::nullopt;
-
+// What is at a path inside the root, if that is a plain file.
+std::optional<HttpFiles::OnDisk> HttpFiles::look(const std::string& path) const {
   std::error_code error;
   const fs::path root = fs::canonical(root_, error);
   if (error) return std::nullopt;
-  const fs::path file = fs::canonical(root / *path, error);
+  OnDisk found{fs::canonical(root / path, error), {}, 0};
   if (error) return std::nullopt;
   // A link that leads out of the root is as bad as "..".
-  const auto inside = file.lexically_relative(root);
+  const auto inside = found.path.lexically_relative(root);
   if (inside.empty() || *inside.begin() == "..") return std::nullopt;
-  if (!fs::is_regular_file(file, error)) return std::nullopt;
-  const std::uintmax_t size = fs::file_size(file, error);
-  const auto changed = error ? fs::file_time_type{} : fs::last_write_time(file, error);
-  if (error || size > kMaxFile) return std::nullopt;
+  if (!fs::is_regular_file(found.path, error)) return std::nullopt;
+  found.size = fs::file_size(found.path, error);
+  if (!error) found.changed = fs::last_write_time(found.path, error);
+  if (error || found.size > kMaxFile) return std::nullopt;
+  return found;
+}
+
+std::optional<HttpFiles::File> HttpFiles::find(std::string_view target) {
+  const auto path = plain_path(target);
+  if (!path || root_.empty()) return std::nullopt;
+  const auto plain = look(*path);
+  if (!plain) return std::nullopt;
+  auto gzip = look(*path + ".gz");
+  // What was packed before the file was last written is of another one.
+  if (gzip && gzip->changed < plain->changed) gzip.reset();
 
   auto kept = kept_.find(*path);
-  if (kept != kept_.end() && kept->second.changed == changed && kept->second.file.body->size() == size) {
-    return kept->second.file;
-  }
-  std::string bytes(static_cast<std::size_t>(size), '\0');
-  std::ifstream in(file, std::ios::binary);
-  if (!in.read(bytes.data(), static_cast<std::streamsize>(size))) return std::nullopt;
+  if (kept != kept_.end() && kept->second.plain == *plain && kept->second.gzip == gzip) return kept->second.file;
 
   File result;
   result.content_type = content_type_of(*path);
-  result.etag = '"' + std::to_string(changed.time_since_epoch().count()) + '-' + std::to_string(size) + '"';
+  result.etag = std::to_string(plain->changed.time_since_epoch().count()) + '-' + std::to_string(plain->size);
   // The bundler names the files in assets/ by their content.
   result.cache_control = path->starts_with("assets/") ? "public, max-age=31536000, immutable" : "no-cache";
-  result.body = std::make_shared<const std::string>(std::move(bytes));
+  result.body = read(plain->path, plain->size);
+  if (!result.body) return std::nullopt;
+  if (gzip) result.gzip = read(gzip->path, gzip->size);
 
+  const auto bytes = [](const File& file) { return file.body->size() + (file.gzip ? file.gzip->size() : 0); };
   if (kept != kept_.end()) {
-    kept_bytes_ -= kept->second.file.body->size();
+    kept_bytes_ -= bytes(kept->second.file);
     kept_.erase(kept);
   }
-  if (kept_bytes_ + size <= kMaxKept) {
-    kept_bytes_ += static_cast<std::size_t>(size);
-    kept_[*path] = {changed, result};
+  if (kept_bytes_ + bytes(result) <= kMaxKept) {
+    kept_bytes_ += bytes(result);
+    kept_[*path] = {*plain, gzip, result};
   }
   return result;
 }

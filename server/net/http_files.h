@@ -1,4 +1,5 @@
 // The viewer's files, found by the path of a request. Keeps what it read, and reads again what has changed on disk.
+// Beside a file NAME may stand NAME.gz, the same bytes packed by whoever built the viewer.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +17,10 @@ class HttpFiles {
  public:
   struct File {
     std::string content_type;
-    std::string etag;
+    std::string etag;  // without its quotes, of the plain bytes
     std::string cache_control;
     SharedLine body;
+    SharedLine gzip;  // the same, packed; null where there is none, or only one of an older file
   };
 
   // `root` may be empty or not exist (yet).
@@ -30,10 +32,20 @@ class HttpFiles {
   std::optional<File> find(std::string_view target);
 
  private:
-  struct Kept {
+  struct OnDisk {
+    std::filesystem::path path;  // with no link left in it
     std::filesystem::file_time_type changed;
+    std::uintmax_t size;
+    friend bool operator==(const OnDisk&, const OnDisk&) = default;
+  };
+  struct Kept {
+    OnDisk plain;
+    std::optional<OnDisk> gzip;
     File file;
   };
+
+  std::optional<OnDisk> look(const std::string& path) const;
+
   std::filesystem::path root_;
   std::map<std::string, Kept> kept_;  // by path
   std::size_t kept_bytes_ = 0;

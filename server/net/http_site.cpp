@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "server/net/accept_encoding.h"
 #include "server/net/websocket_frames.h"
 
 namespace posed::net {
@@ -121,6 +122,22 @@ bool HttpSite::may_read_pages(const HttpRequest& request) const {
   return !tokens_ || (given.starts_with(kScheme) && tokens_->find(given.substr(kScheme.size())));
 }
 
+HttpReply HttpSite::file_reply(const HttpFiles::File& file, const HttpRequest& request) {
+  const bool packed = file.gzip && prefers_gzip(request.accept_encoding);
+  // Two representations, two tags.
+  const std::string etag = '"' + file.etag + (packed ? "-gzip\"" : "\"");
+  HttpReply reply{200, file.content_type, "", packed ? file.gzip : file.body};
+  reply.headers = "ETag: " + etag + "\r\nCache-Control: " + file.cache_control + "\r\n";
+  if (file.gzip) reply.headers += "Vary: Accept-Encoding\r\n";
+  if (request.if_none_match == etag) {
+    reply.status = 304;
+    reply.body = nullptr;
+  } else if (packed) {
+    reply.headers += "Content-Encoding: gzip\r\n";
+  }
+  return reply;
+}
+
 HttpReply HttpSite::answer(const HttpRequest& request) {
   if (request.method != "GET" && request.method != "HEAD") {
     return plain_reply(405, "only GET and HEAD; requests go over the WebSocket at /ws or as JSON lines over TCP",
@@ -143,15 +160,7 @@ HttpReply HttpSite::answer(const HttpRequest& request) {
     }
     return {200, page->second.content_type, "Cache-Control: no-store\r\n", page->second.body};
   }
-  if (auto file = files_.find(target)) {
-    HttpReply reply{200, file->content_type, "", file->body};
-    reply.headers = "ETag: " + file->etag + "\r\nCache-Control: " + file->cache_control + "\r\n";
-    if (request.if_none_match == file->etag) {
-      reply.status = 304;
-      reply.body = nullptr;
-    }
-    return reply;
-  }
+  if (const auto file = files_.find(target)) return file_reply(*file, request);
   if ((path == "/" || path == "/index.html") && !files_.present()) {
     return {200, "text/html; charset=utf-8", "Cache-Control: no-store\r\n",
             std::make_shared<const std::string>(kNoViewer)};

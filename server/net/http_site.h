@@ -13,7 +13,7 @@
 namespace posed::net {
 
 struct HttpRequest {
-  std::string method, target, host, origin, if_none_match, authorization;
+  std::string method, target, host, origin, if_none_match, accept_encoding, authorization;
   std::string upgrade, connection, websocket_key, websocket_version;
 };
 
@@ -40,6 +40,7 @@ class HttpSite {
   };
 
   HttpReply upgrade(const HttpRequest& request) const;
+  static HttpReply file_reply(const HttpFiles::File& file, const HttpRequest& request);
   bool may_read_pages(const HttpRequest& request) const;
 
   HostPolicy policy_;

@@ -49,11 +49,32 @@ Status check_axes(const Axes& axes, const Axes& possible, const std::string& wha
   return Ok{};
 }
 
+Status check_buttons(const Binding& binding) {
+  std::uint32_t seen = 0;
+  for (std::size_t i = 0; i < binding.buttons.size(); ++i) {
+    const ButtonAction& action = binding.buttons[i];
+    const std::string path = "/buttons/" + std::to_string(i);
+    if (!(action.button >= 0 && action.button <= kMaxButton))
+      return Error{"out_of_range", "no sensor has so many buttons", path + "/button", "0 is the first, to 31"};
+    const std::string name = "button " + std::to_string(action.button);
+    if (binding.clutch && binding.clutch->button == action.button)
+      return Error{"invalid_params", name + " is the clutch", path + "/button", "take another one"};
+    if (seen >> action.button & 1u)
+      return Error{"invalid_params", name + " does something already", path + "/button", "name each button once"};
+    seen |= 1u << action.button;
+    if (action.act == ButtonAction::Do::recenter && binding.mode != Binding::Mode::relative)
+      return Error{"invalid_params", "an absolute binding has no centre: its target is where the sensor is",
+                   path + "/do", R"("mode":"relative", or "do":"toggle")"};
+  }
+  return Ok{};
+}
+
 Status check_numbers(Binding& binding) {
   if (!(std::abs(binding.scale) <= 1000.0))
     return Error{"out_of_range", "the scale is out of range", "/scale", "-1000 to 1000"};
   if (binding.clutch && !(binding.clutch->button >= 0 && binding.clutch->button <= kMaxButton))
     return Error{"out_of_range", "no sensor has so many buttons", "/clutch/button", "0 is the first, to 31"};
+  if (const Status checked = check_buttons(binding); !checked) return checked;
   if (SensorOffset* offset = binding.offset ? &*binding.offset : nullptr) {
     for (int i = 0; i < 3; ++i) {
       if (!(std::abs(offset->position[i]) <= kMaxOffset))
@@ -193,6 +214,7 @@ Result<Edited> Scene::set_binding(const BindingEdit& edit, IfRevision if_revisio
   edit.mode.apply(binding.mode);
   if (edit.clutch.is_reset()) binding.clutch.reset();
   if (edit.clutch.value()) binding.clutch = *edit.clutch.value();
+  edit.buttons.apply(binding.buttons);
   edit.scale.apply(binding.scale, 1.0);
   if (edit.offset.is_reset()) binding.offset.reset();
   if (edit.offset.value()) binding.offset = *edit.offset.value();

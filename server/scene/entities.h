@@ -37,6 +37,17 @@ struct SceneFigure : EntityState {
   Content posed = kAtStart;  // the last edit that said its joint values
 };
 
+// Of what the payload has of the two.
+inline void place_payload(const Transform& place, GoalPayload& payload) {
+  if (Vec3* position = position_of(payload)) *position = place.position;
+  if (Quat* rotation = rotation_of(payload)) *rotation = place.rotation;
+}
+inline Transform place_of(const GoalPayload& payload) {  // what it lacks is at rest
+  const Vec3* position = position_of(payload);
+  const Quat* rotation = rotation_of(payload);
+  return {position ? *position : kZero, rotation ? *rotation : quat_identity()};
+}
+
 struct SceneGoal : EntityState {
   Goal goal;
   AttachedPoint at;        // of kinds that take hold
@@ -48,13 +59,7 @@ struct SceneGoal : EntityState {
   std::optional<Transform> world_from_base;  // relative to an object, or to a sensor that has been heard
   bool base_moves = false;                   // sensors move the base
 
-  // Of position, orientation and pose goals; what the payload lacks is at rest.
-  Transform place() const {
-    if (live) return *live;
-    const Vec3* position = position_of(goal.payload);
-    const Quat* rotation = rotation_of(goal.payload);
-    return {position ? *position : kZero, rotation ? *rotation : quat_identity()};
-  }
+  Transform place() const { return live ? *live : place_of(goal.payload); }  // position, orientation and pose goals
   Vec3 target() const { return place().position; }
   bool follows_sensors() const { return live || base_moves; }
   bool rides_on(const std::string& object) const {
@@ -92,6 +97,8 @@ struct SceneBinding : EntityState {
   std::optional<Transform> rest;       // of a joint: how its segment lay in the world at the first sample
   std::array<double, 4> share{};       // of a joint: its share of q, where `moves_joint`
   bool moves_joint = false;
+  std::uint32_t held = ~0u;  // buttons; one that is held from the beginning was not pressed
+  bool paused = false;       // by a button
 };
 
 }  // namespace posed

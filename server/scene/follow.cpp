@@ -43,10 +43,7 @@ void Scene::place_target(SceneBinding& binding, const Transform& wanted, Followe
   const Axes& axes = *binding.binding.axes;
   if (!to.goal.empty()) {
     SceneGoal& goal = goals_.find(to.goal)->second;
-    const Vec3* position = position_of(goal.goal.payload);
-    const Quat* rotation = rotation_of(goal.goal.payload);
-    const Transform rest{position ? *position : kZero, rotation ? *rotation : quat_identity()};
-    followed.pose = move(goal.live, on_axes(axes, rest, wanted)) || followed.pose;
+    followed.pose = move(goal.live, on_axes(axes, place_of(goal.goal.payload), wanted)) || followed.pose;
   } else if (!to.object.empty()) {
     SceneObject& object = objects_.find(to.object)->second;
     if (!move(object.live, on_axes(axes, object.object.world_from_object, wanted))) return;
@@ -92,6 +89,29 @@ Scene::Followed Scene::carry(const SceneObject& object) {
   return followed;
 }
 
+// Where the document has the target; of a joint where it was when the binding began.
+Transform Scene::home_of(const SceneBinding& binding) const {
+  const BindingTarget& to = binding.binding.to;
+  if (!to.goal.empty()) return place_of(goals_.find(to.goal)->second.goal.payload);
+  if (!to.object.empty()) return objects_.find(to.object)->second.object.world_from_object;
+  if (!to.camera.empty()) return cameras_.find(to.camera)->second.camera.base_from_camera;
+  return binding.rest.value_or(target_of(binding));
+}
+
+void Scene::press(SceneBinding& binding, ButtonAction::Do act, const Transform& world_from_sensor, Followed& followed) {
+  switch (act) {
+    case ButtonAction::Do::recenter:
+      binding.anchor = MotionAnchor{world_from_sensor, home_of(binding)};
+      return place_target(binding, binding.anchor->world_from_target, followed);
+    case ButtonAction::Do::toggle:
+      binding.paused = !binding.paused;
+      return;
+    case ButtonAction::Do::save:
+      followed.saving.push_back(binding.binding.id);
+      return;
+  }
+}
+
 // The filter hears the sensor whether the clutch is held or not.
 void Scene::follow(SceneBinding& binding, const Sample& sample, Nanoseconds t_ns, Followed& followed) {
   const Binding& b = binding.binding;
@@ -99,7 +119,13 @@ void Scene::follow(SceneBinding& binding, const Sample& sample, Nanoseconds t_ns
   if (b.filter)
     world_from_sensor =
         binding.filter.next(*b.filter, world_from_sensor, sample.device_t_ns ? sample.device_t_ns : t_ns);
-  if (b.clutch && (sample.buttons >> b.clutch->button & 1u) == 0) return binding.anchor.reset();
+  const std::uint32_t pressed = sample.buttons & ~binding.held;
+  binding.held = sample.buttons;
+  for (const ButtonAction& action : b.buttons) {
+    if (pressed >> action.button & 1u) press(binding, action.act, world_from_sensor, followed);
+  }
+  const bool clutched = !b.clutch || (sample.buttons >> b.clutch->button & 1u) != 0;
+  if (!clutched || binding.paused) return binding.anchor.reset();
   if (b.mode == Binding::Mode::absolute) return place_target(binding, absolute_motion(b, world_from_sensor), followed);
   if (!binding.anchor) binding.anchor = MotionAnchor{world_from_sensor, target_of(binding)};
   place_target(binding, relative_motion(b, *binding.anchor, world_from_sensor), followed);
@@ -138,8 +164,7 @@ void Scene::let_go(const SceneBinding& binding) {
     SceneGoal& goal = goals_.at(to.goal);
     if (!goal.live) return;
     keep_goal(to.goal);
-    if (Vec3* position = position_of(goal.goal.payload)) *position = goal.live->position;
-    if (Quat* rotation = rotation_of(goal.goal.payload)) *rotation = goal.live->rotation;
+    place_payload(*goal.live, goal.goal.payload);
     place_spring(goal.place(), goal.spring);
     goal.live.reset();
     ++goal.revision;

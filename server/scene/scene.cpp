@@ -24,6 +24,19 @@ SceneDocument Scene::document() const {
   return document;
 }
 
+SceneDocument Scene::as_it_stands() const {
+  SceneDocument document = this->document();
+  for (const auto& [id, goal] : goals_) {
+    if (goal.live) place_payload(*goal.live, document.goals.at(id).payload);
+  }
+  for (const auto& [id, object] : objects_) document.objects.at(id).world_from_object = object.world_from_object();
+  for (const auto& [id, camera] : cameras_) {
+    if (camera.live) document.cameras.at(id).base_from_camera = *camera.live;
+  }
+  document.bindings.clear();
+  return document;
+}
+
 Status Scene::load(const SceneDocument& document) {
   Scene next;
   for (const auto& [id, entry] : document.figures) {

@@ -44,6 +44,8 @@ class Scene {
   const std::map<std::string, SceneCamera>& cameras() const { return cameras_; }
 
   SceneDocument document() const;
+  // What sensors move is where they have it, and nothing is bound.
+  SceneDocument as_it_stands() const;
   // Replaces everything, or nothing where the document is wrong.
   Status load(const SceneDocument& document);
 
@@ -91,10 +93,12 @@ class Scene {
   // Whether the document has something of this path: "/goals/g1".
   bool has(const std::string& path) const;
 
-  // A sensor's motion: moves what is bound to it or relative to it. No edit, no revision. Does not allocate.
+  // A sensor's motion: moves what is bound to it or relative to it. No edit, no revision. Does not allocate, but where
+  // a button asks for something.
   struct Followed {
-    bool pose = false;     // something that figures are pulled by has moved
-    bool cameras = false;  // cameras have
+    bool pose = false;                // something that figures are pulled by has moved
+    bool cameras = false;             // cameras have
+    std::vector<std::string> saving;  // bindings whose button asks for the scene to be saved
     explicit operator bool() const { return pose || cameras; }
   };
   Followed follow(const Frame& frame);
@@ -117,7 +121,9 @@ class Scene {
   Result<std::map<std::string, SceneCamera>> refit_cameras(const std::string& figure, const SceneFigure& next) const;
   void let_go(const SceneBinding& binding);
   void follow(SceneBinding& binding, const Sample& sample, Nanoseconds t_ns, Followed& followed);
+  void press(SceneBinding& binding, ButtonAction::Do act, const Transform& world_from_sensor, Followed& followed);
   void place_target(SceneBinding& binding, const Transform& wanted, Followed& followed);
+  Transform home_of(const SceneBinding& binding) const;
   Transform target_of(const SceneBinding& binding) const;
   Followed carry(const SceneObject& object);
   void drop_goal(const std::string& id);

@@ -10,6 +10,7 @@
 #include "server/tracker/capture/replay.h"
 #include "server/tracker/driver.h"
 #include "server/tracker/fastrak/session.h"
+#include "server/tracker/fastrak/settings.h"
 #include "server/tracker/isotrak/session.h"
 #include "server/tracker/liberty/session.h"
 #include "server/tracker/serial/port.h"
@@ -58,15 +59,23 @@ Made make_simulated(const Wishes& wishes) {
 
 // Where a tracker is to be looked for: on USB, or at a serial port.
 struct Place {
-  std::string path;   // empty: USB
-  unsigned baud = 0;  // of a serial port
+  std::string path;    // empty: USB
+  unsigned baud = 0;   // of a serial port
+  std::string device;  // on USB: its serial number or its port; empty: any
 };
 
 // `usb`, `serial`: what the family has. A path may hold an @ itself: the last one counts.
 Result<Place> parse_place(std::string_view kind, std::string_view arg, bool usb, bool serial, unsigned baud) {
   const std::string said = std::string(kind) + ":" + std::string(arg);
-  if (arg.empty() || arg == "usb") {
-    if (usb) return Place{};
+  constexpr std::string_view kWhich = "usb:";
+  if (arg.empty() || arg == "usb" || arg.starts_with(kWhich)) {
+    Place place;
+    if (arg.starts_with(kWhich)) place.device = arg.substr(kWhich.size());
+    if (arg == kWhich) {
+      return Error{"invalid_params", said + " says no serial number and no port", "",
+                   said + "1-2.3, or " + std::string(kind) + ":usb for any"};
+    }
+    if (usb) return place;
     return Error{"invalid_params", "there is no " + std::string(kind) + " on USB", "",
                  "name its serial port, as in " + std::string(kind) + ":/dev/ttyS0"};
   }
@@ -74,7 +83,7 @@ Result<Place> parse_place(std::string_view kind, std::string_view arg, bool usb,
     return Error{"invalid_params", said + " names a place where posed does not look for a " + std::string(kind), "",
                  std::string(kind) + " or " + std::string(kind) + ":usb"};
   }
-  Place place{std::string(arg), baud};
+  Place place{std::string(arg), baud, ""};
   if (const std::size_t at = arg.rfind('@'); at != std::string_view::npos) {
     if (!parse_number(arg.substr(at + 1), place.baud) || place.baud < 1200) {
       return Error{"invalid_params", said + " does not end in a baud rate", "",
@@ -91,7 +100,7 @@ Result<Place> parse_place(std::string_view kind, std::string_view arg, bool usb,
 }
 
 std::unique_ptr<Port> port_at(const Place& place, std::string_view kind, const TimeSource& now) {
-  if (place.path.empty()) return std::make_unique<UsbPort>(std::string(kind), now);
+  if (place.path.empty()) return std::make_unique<UsbPort>(std::string(kind), place.device, now);
   return std::make_unique<SerialPort>(place.path, place.baud, now);
 }
 
@@ -145,8 +154,10 @@ Made make_fastrak(const Wishes& wishes) {
   FastrakOptions options;
   options.id = id_of("fastrak", wishes);
   options.baud = place->baud;
-  return make_driver("fastrak", 120, port_at(*place, "fastrak", wishes.now), wishes,
-                     [options] { return std::make_unique<FastrakSession>(options); });
+  return make_driver(
+      "fastrak", 120, port_at(*place, "fastrak", wishes.now), wishes,
+      [options] { return std::make_unique<FastrakSession>(options); }, fastrak_abilities(kFastrakStations),
+      fastrak_defaults());
 }
 
 Made make_isotrak(const Wishes& wishes) {
@@ -155,8 +166,10 @@ Made make_isotrak(const Wishes& wishes) {
   IsotrakOptions options;
   options.id = id_of("isotrak", wishes);
   options.baud = place->baud;
-  return make_driver("isotrak", 60, port_at(*place, "isotrak", wishes.now), wishes,
-                     [options] { return std::make_unique<IsotrakSession>(options); });
+  return make_driver(
+      "isotrak", 60, port_at(*place, "isotrak", wishes.now), wishes,
+      [options] { return std::make_unique<IsotrakSession>(options); }, fastrak_abilities(kIsotrakStations),
+      fastrak_defaults());
 }
 
 Made make_viper(const Wishes& wishes) {
@@ -164,14 +177,15 @@ Made make_viper(const Wishes& wishes) {
   if (!place) return place.error();
   ViperOptions options;
   options.id = id_of("viper", wishes);
-  return make_driver("viper", 240, port_at(*place, "viper", wishes.now), wishes,
-                     [options] { return std::make_unique<ViperSession>(options); });
+  return make_driver(
+      "viper", 240, port_at(*place, "viper", wishes.now), wishes,
+      [options] { return std::make_unique<ViperSession>(options); }, viper_abilities(), viper_defaults());
 }
 
 Made make_spacemouse(const Wishes& wishes) {
   const auto place = parse_place("spacemouse", wishes.arg, true, false, 0);
   if (!place) return place.error();
-  return make_driver("spacemouse", 60, std::make_unique<SpacemousePort>(wishes.now), wishes,
+  return make_driver("spacemouse", 60, std::make_unique<SpacemousePort>(wishes.now, place->device), wishes,
                      [id = id_of("spacemouse", wishes)] { return std::make_unique<SpacemouseSession>(id); });
 }
 

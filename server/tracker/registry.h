@@ -19,10 +19,11 @@ struct TrackerOptions {
 
 // `spec` is KIND[:ARG], as after --tracker:
 //   simulated[:SEED[@RATE]]   two sensors that swing; RATE in Hz, 1..1000
-//   liberty patriot fastrak   on USB (KIND or KIND:usb), or at a serial port: KIND:/dev/ttyS0[@BAUD]
+//   liberty patriot fastrak   on USB (KIND, KIND:usb or KIND:usb:WHICH), or at a serial port: KIND:/dev/ttyS0[@BAUD]
 //   isotrak:/dev/ttyS0[@BAUD]
-//   viper[:usb]
-//   spacemouse[:usb]          through hidraw
+//   viper[:usb[:WHICH]]
+//   spacemouse[:usb[:WHICH]]  through hidraw
+//     WHICH: the device's serial number, or the port that it is plugged in at ("1-2.3"); posectl doctor tells both
 //   replay:FILE[@fast]        a capture, at its own pace or flat out
 // The tracker's id is its kind, or TrackerOptions::id; a replay's is that of the tracker that was captured. Errors:
 // invalid_params for a word that is none and a place that cannot be, not_available for a file that cannot be read or

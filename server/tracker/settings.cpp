@@ -1,24 +1,34 @@
 #include "server/tracker/settings.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "server/tracker/tracker.h"
 
 namespace posed::tracker {
 namespace {
 
-Error no_such(const std::string& kind, const char* field) {
-  return {"not_available", "a " + kind + " has no such setting as " + field, std::string("/") + field, "leave it out"};
+Error no_such(const std::string& kind, const Abilities& can, const char* field) {
+  std::string all;
+  for (const auto& [has, name] : {std::pair{!can.rates.empty(), "rate_hz"},
+                                  {can.switches, "sensors"},
+                                  {can.hemispheres, "hemisphere"},
+                                  {can.filters, "position_filter"},
+                                  {can.filters, "attitude_filter"}}) {
+    if (has) all.append(all.empty() ? "it has " : ", ").append(name);
+  }
+  return {"not_available", "a " + kind + " has no such setting as " + field, std::string("/") + field,
+          all.empty() ? "it has none" : all};
 }
 
 }  // namespace
 
 posed::Status refuse(const Settings& settings, const std::string& kind, const Abilities& can) {
-  if (settings.rate_hz.named() && can.rates.empty()) return no_such(kind, "rate_hz");
-  if (settings.stations.named() && can.stations == 0) return no_such(kind, "sensors");
-  if (!settings.hemispheres.empty() && !can.hemispheres) return no_such(kind, "hemisphere");
-  if (settings.position_filter.named() && !can.filters) return no_such(kind, "position_filter");
-  if (settings.attitude_filter.named() && !can.filters) return no_such(kind, "attitude_filter");
+  if (settings.rate_hz.named() && can.rates.empty()) return no_such(kind, can, "rate_hz");
+  if (settings.stations.named() && !can.switches) return no_such(kind, can, "sensors");
+  if (!settings.hemispheres.empty() && !can.hemispheres) return no_such(kind, can, "hemisphere");
+  if (settings.position_filter.named() && !can.filters) return no_such(kind, can, "position_filter");
+  if (settings.attitude_filter.named() && !can.filters) return no_such(kind, can, "attitude_filter");
   if (const double* rate = settings.rate_hz.value();
       rate && std::find(can.rates.begin(), can.rates.end(), *rate) == can.rates.end()) {
     std::string rates;
@@ -40,6 +50,9 @@ posed::Status refuse(const Settings& settings, const std::string& kind, const Ab
       return Error{"out_of_range", "a " + kind + " has no such sensor", "/hemisphere", "1 to " + std::to_string(most)};
     if (!finite(zenith) || glm::length(zenith) > 1e6)
       return Error{"out_of_range", "a hemisphere is a direction", "/hemisphere", "as in [1,0,0]"};
+    if (zenith == kZero && !can.follows)
+      return Error{"out_of_range", "a " + kind + " does not follow a sensor into the other half of its field",
+                   "/hemisphere", "a direction, as in [1,0,0]"};
   }
   return Ok{};
 }

@@ -36,10 +36,14 @@ struct Settings {
 // Which of them a family has.
 struct Abilities {
   std::vector<double> rates;  // Hz; empty: it has one
-  int stations = 0;           // that can be switched on and off; 0: none
-  bool hemispheres = false, filters = false;
+  int stations = 0;           // the highest that there can be
+  bool switches = false;      // stations can be switched on and off
+  bool hemispheres = false;
+  bool follows = false;  // a sensor from one half of the field to the other
+  bool filters = false;
 };
-// "not_available" for the first field that it has not, "out_of_range" for a rate or a station that it has not.
+// "not_available" for the first field that it has not, and which it has; "out_of_range" for a rate or a station that it
+// has not.
 posed::Status refuse(const Settings& settings, const std::string& kind, const Abilities& can);
 
 }  // namespace posed::tracker

@@ -264,6 +264,19 @@ TEST(TrackerUse, ACalibrationPutsSamplesInTheWorldAndOutlivesTheDaemon) {
     ASSERT_TRUE(list);
     EXPECT_EQ(list->trackers[0].calibration, "");
     EXPECT_EQ(list->trackers[0].calibrations.size(), 1u) << "kept, and not chosen";
+    ASSERT_TRUE(client.call("tracker.configure", R"({"tracker":"simulated","calibration":"monday"})"));
+    const Error in_use = refused(client, "tracker.forget", R"({"tracker":"simulated","name":"monday"})");
+    EXPECT_EQ(in_use.code, "in_use");
+    EXPECT_EQ(in_use.path, "/params/name");
+    EXPECT_EQ(refused(client, "tracker.forget", R"({"tracker":"simulated","name":"sunday"})").code,
+              "unknown_calibration");
+    ASSERT_TRUE(client.call("tracker.configure", R"({"tracker":"simulated","calibration":null})"));
+    ASSERT_TRUE(client.call("tracker.forget", R"({"tracker":"simulated","name":"monday"})"));
+  });
+  with_daemon([&](client::Client& client) {
+    const auto list = client.call<proto::TrackerListResult>(proto::TrackerList{});
+    ASSERT_TRUE(list);
+    EXPECT_TRUE(list->trackers[0].calibrations.empty()) << "forgotten on the disk, too";
   });
 }
 

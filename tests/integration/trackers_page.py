@@ -136,6 +136,8 @@ def check(command, out, bench):
     if "watch pose" in command:
         bench.wait_for("pose", lambda d: any(g["id"] == "reach" and math.dist(g["target"], (0.9, -0.2, 0.3)) < 1e-3
                                              for g in d["figures"][0]["goals"]))
+    if "scene list" in command:
+        assert re.search(r"fastrak\.1-\d{8}T\d{6}\.\d{3}Z", out), out
     if "watch camera" in command:
         # Twice the way of the hand, which went to the source's right while the button was held.
         bench.wait_for("camera", lambda d: math.dist(d["cameras"][0]["position"], (2, -0.2, 1.5)) < 0.01)

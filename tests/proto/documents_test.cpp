@@ -41,6 +41,7 @@ SceneDocument rich_scene() {
   carrying.to = BindingTarget{"", "chair", "", "", ""};
   carrying.axes = kAllAxes;
   carrying.clutch = Clutch{1};
+  carrying.buttons = {{0, ButtonAction::Do::save}, {2, ButtonAction::Do::toggle}};
   carrying.offset = SensorOffset{{0.1, 0, 1.0 / 3.0}, quat_from_xyzw(0.5, 0.5, 0.5, 0.5)};
   carrying.filter = BindingFilter{OneEuro{0.5, 3.0, 2.0}, 12.5};
   Camera camera;

@@ -72,6 +72,7 @@ const std::map<std::string, SayAnew> kResults{{"session.hello", said_anew<HelloR
                                               {"tracker.align", said_anew<CalibrationResult>},
                                               {"tracker.tip", said_anew<CalibrationResult>},
                                               {"tracker.boresight", said_anew<CalibrationResult>},
+                                              {"tracker.forget", said_empty},
                                               {"stream.subscribe", said_anew<SubscribeResult>},
                                               {"stream.unsubscribe", said_anew<SubscribeResult>},
                                               {"stream.ack", said_empty},

@@ -32,6 +32,7 @@ std::vector<Params> full_messages() {
   binding.to = BindingTarget{"g1", "", "", "", ""};
   binding.axes = Axes{true, false, true, false, true};
   binding.clutch = Clutch{3};
+  binding.buttons = std::vector<ButtonAction>{{0, ButtonAction::Do::recenter}, {1, ButtonAction::Do::save}};
   binding.offset = SensorOffset{{0.01, 0, -0.02}, quat_from_xyzw(0.5, 0.5, 0.5, 0.5)};
   binding.filter = BindingFilter{OneEuro{0.5, 3.0, 2.0}, 12.5};
   binding.mode = Binding::Mode::relative;
@@ -110,6 +111,7 @@ std::vector<Params> full_messages() {
           TrackerAlign{"liberty", "monday", true, {{{1, 2, 3}, {0, 1.0 / 3.0, 0}}}},
           TrackerTip{"liberty:1", "monday", true, 2000, Vec3(0.1, 0, 0)},
           TrackerBoresight{"liberty:1", "monday", true, 100, quat_from_xyzw(0.5, 0.5, 0.5, 0.5)},
+          TrackerForget{"liberty", "monday", true},
           JointGet{"body", "waist"},
           PoseGet{"body", 42, 100},
           PoseSet{"body", {1.0 / 3.0, 2, 3}},
@@ -139,7 +141,7 @@ void expect_round_trip(const Params& message) {
 
 TEST(Requests, EveryMethodComesThrough) {
   const std::vector<Params> messages = every_message();
-  ASSERT_EQ(messages.size(), 60u);
+  ASSERT_EQ(messages.size(), 61u);
   for (const Params& message : messages) expect_round_trip(message);
 }
 

@@ -88,7 +88,37 @@ void FastrakEmulator::execute(const std::string& line) {
     if (arguments.size() != 4) return complain(line, kMissing);
     for (std::size_t i = 0; i < 3; ++i) sensors_[station].hemisphere[i] = std::atof(arguments[i + 1].c_str());
   }
+  if (std::string_view("ARBbGN").find(letter) != std::string_view::npos &&
+      !set_frames(letter, sensors_[station], arguments))
+    return complain(line, kMissing);
+  if (letter == 'x' || letter == 'v') {
+    if (arguments.size() > 4) return complain(line, kOutOfRange);
+    for (std::size_t i = 0; i < arguments.size(); ++i) {
+      if (arguments[i].empty()) continue;  // as it was
+      const double value = std::atof(arguments[i].c_str());
+      if (value < 0.0 || value > 1.0) return complain(line, kOutOfRange);
+      filters_[letter == 'x' ? 0 : 1][i] = value;
+    }
+  }
   commands_.push_back(line);
+}
+
+// Numbers are in the units that are set. False where some are missing.
+bool FastrakEmulator::set_frames(char letter, Sensor& sensor, const Arguments& arguments) {
+  if (arguments.size() != (letter == 'A' ? 10 : letter == 'N' || letter == 'G' ? 4 : 1)) return false;
+  const int station = std::atoi(arguments[0].c_str());
+  const auto number = [&](std::size_t at) { return std::atof(arguments[at].c_str()); };
+  const auto point = [&](std::size_t at) {
+    const double inches = centimetres_ ? 1.0 / 2.54 : 1.0;
+    return SensorFrames::Point{inches * number(at), inches * number(at + 1), inches * number(at + 2)};
+  };
+  if (letter == 'A') sensor.frames.align(point(1), point(4), point(7));
+  if (letter == 'R') sensor.frames.reset_alignment();
+  if (letter == 'G') sensor.reference = {0, 0, 0, number(1), number(2), number(3)};
+  if (letter == 'B') sensor.frames.boresight(raw(sensor, station), sensor.reference, false);
+  if (letter == 'b') sensor.frames.reset_boresight();
+  if (letter == 'N') sensor.frames.set_tip(point(1));
+  return true;
 }
 
 // An ISOTRAK's list is for all stations, and names none.

@@ -10,6 +10,7 @@
 
 #include "tests/support/emulator_pack.h"
 #include "tests/support/tracker_emulator.h"
+#include "tests/support/tracker_frames.h"
 
 namespace posed::test {
 
@@ -40,6 +41,10 @@ class FastrakEmulator final : public TrackerEmulator {
 
   bool binary() const { return binary_; }
   bool centimetres() const { return centimetres_; }
+  bool active(int station) const { return sensors_.contains(station) && sensors_.at(station).active; }
+  std::array<double, 3> hemisphere(int station) const { return sensors_.at(station).hemisphere; }
+  // Of positions (x) or attitudes (v): sensitivity, low, high, most; as it was told last.
+  std::array<double, 4> filter(char command) const { return command == 'x' ? filters_[0] : filters_[1]; }
   const std::vector<std::string>& commands() const { return commands_; }  // all that were understood, in order
 
  private:
@@ -49,15 +54,19 @@ class FastrakEmulator final : public TrackerEmulator {
     char letter = ' ';
     std::array<double, 3> hemisphere{1, 0, 0};
     std::vector<int> list{2, 4, 1};
+    SensorFrames frames;
+    SourcePose reference{0, 0, 0, 0, 0, 0};  // of a boresight
   };
   using Arguments = std::vector<std::string>;
 
   bool at_once(char letter);
   void execute(const std::string& line);
+  bool set_frames(char letter, Sensor& sensor, const Arguments& arguments);
   void set_list(const std::string& line, const Arguments& arguments);
   void answer(int station, char letter, const std::string& text);
   void complain(const std::string& line, int code);
   int most() const { return kind_ == Kind::fastrak ? 4 : 2; }
+  SourcePose raw(const Sensor& sensor, int station) const;
   Bytes record(int station);
   Bytes packed(int station, const SourcePose& pose, char letter) const;
   void put_item(Bytes& to, int item, const SourcePose& pose, bool button) const;
@@ -73,6 +82,7 @@ class FastrakEmulator final : public TrackerEmulator {
   int turn_ = 0;  // the station that measured last
   bool continuous_ = false, binary_ = false, centimetres_ = false, suspended_ = false;
   bool button_ = false, button_starts_ = true;
+  std::array<std::array<double, 4>, 2> filters_{{{0.2, 0.2, 0.8, 0.95}, {0.2, 0.2, 0.8, 0.95}}};  // x, v
 };
 
 }  // namespace posed::test

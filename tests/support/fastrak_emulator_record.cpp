@@ -16,9 +16,13 @@ void put_i16(Bytes& to, double v) {
 
 }  // namespace
 
+SourcePose FastrakEmulator::raw(const Sensor& sensor, int station) const {
+  return mirrored(motion_ ? motion_(station, count_) : sensor.pose, sensor.hemisphere.data());
+}
+
 Bytes FastrakEmulator::record(int station) {
   const Sensor& sensor = sensors_[station];
-  SourcePose pose = mirrored(motion_ ? motion_(station, count_) : sensor.pose, sensor.hemisphere.data());
+  SourcePose pose = sensor.frames.of(raw(sensor, station));
   const char letter = sensor.detected ? sensor.letter : 'l';
   if (kind_ == Kind::isotrak && binary_ && sensor.list == std::vector<int>{2, 11}) return packed(station, pose, letter);
   if (centimetres_) {

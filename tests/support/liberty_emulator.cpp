@@ -79,6 +79,12 @@ std::deque<std::vector<std::uint8_t>> LibertyEmulator::take() {
   return taken;
 }
 
+void LibertyEmulator::press_button(int station, bool down) {
+  SensorState& sensor = sensors_[station];
+  if (down && !sensor.button && sensor.button_starts) continuous_ = !continuous_;
+  sensor.button = down;
+}
+
 void LibertyEmulator::power_cycle() {
   const std::map<int, SensorState> before = std::exchange(sensors_, {});
   for (const auto& [station, sensor] : before) {
@@ -112,12 +118,13 @@ void LibertyEmulator::execute(const std::string& line) {
   }
   const std::string rest = line.substr(1);
   if (echo_) answer(command, 0, Bytes(line.begin(), line.end()), line);
-  constexpr std::string_view kKnown = "CFUORHQXY\x05\x12\x15";
+  constexpr std::string_view kKnown = "ABCFUNOLRHQXY\x02\x05\x12\x15";
   if (kKnown.find(command) == std::string_view::npos) return complain(command, kInvalidCommand, line);
   if (command == 'C') {
     commands_.push_back(line);
     continuous_ = true;
-  } else if (rest.empty() || ((command == 'O' || command == 'H') && rest.find(',') == std::string::npos)) {
+  } else if (rest.empty() || (std::string_view("ABHLNO").find(command) != std::string_view::npos &&
+                              rest.find(',') == std::string::npos)) {
     query(command, std::atoi(rest.c_str()));
   } else {
     set(command, split(rest), line);
@@ -128,6 +135,15 @@ void LibertyEmulator::set(char command, const Arguments& arguments, const std::s
   const int value = std::atoi(arguments[0].c_str());
   const bool flag = arguments.size() == 1 && (arguments[0] == "0" || arguments[0] == "1");
   if (command == 'O') return set_list(arguments, line);
+  if (std::string_view("ABN\x02\x12").find(command) != std::string_view::npos)
+    return set_frames(command, arguments, line);
+  if (command == 'L') {
+    if (!valid_station(arguments[0], kind_.stations)) return complain(command, kInvalidStation, line);
+    if (arguments.size() != 2) return complain(command, arguments.size() < 2 ? kTooFew : kTooMany, line);
+    for (auto& [station, sensor] : sensors_) {
+      if (matches_station(arguments[0], station)) sensor.button_starts = arguments[1] == "1";
+    }
+  }
   if (command == 0x15) return set_stations(arguments, line);
   if (command == 'H') {
     if (!valid_station(arguments[0], kind_.stations)) return complain(command, kInvalidStation, line);
@@ -148,12 +164,37 @@ void LibertyEmulator::set(char command, const Arguments& arguments, const std::s
   } else if (command == 'Q') {
     if (value < 0 || value > 2) return complain(command, kInvalidParameter, line);
     count_ = 0;
-  } else if (command != 0x12) {
+  } else if (command != 'L') {
     if (!flag) return complain(command, kInvalidParameter, line);
     if (command == 'F') binary_ = value == 1;
     if (command == 'U') centimetres_ = value == 1;
     if (command == 0x05) echo_ = value == 1;
     if (command == '@') buffering_ = value == 1;
+  }
+  commands_.push_back(line);
+}
+
+// Numbers are in the units that are set.
+void LibertyEmulator::set_frames(char command, const Arguments& arguments, const std::string& line) {
+  if (!valid_station(arguments[0], kind_.stations)) return complain(command, kInvalidStation, line);
+  const std::size_t wanted = command == 'A' ? 10 : command == 'B' ? 5 : command == 'N' ? 4 : 1;
+  if (arguments.size() != wanted) return complain(command, arguments.size() < wanted ? kTooFew : kTooMany, line);
+  const auto point = [&](std::size_t at) {
+    const double inches = centimetres_ ? 1.0 / 2.54 : 1.0;
+    return SensorFrames::Point{inches * std::atof(arguments[at].c_str()), inches * std::atof(arguments[at + 1].c_str()),
+                               inches * std::atof(arguments[at + 2].c_str())};
+  };
+  for (auto& [station, sensor] : sensors_) {
+    if (!matches_station(arguments[0], station)) continue;
+    if (command == 'A') sensor.frames.align(point(1), point(4), point(7));
+    if (command == 'N') sensor.frames.set_tip(point(1));
+    if (command == 0x12) sensor.frames.reset_alignment();
+    if (command == 0x02) sensor.frames.reset_boresight();
+    if (command == 'B') {
+      const SourcePose reference{
+          0, 0, 0, std::atof(arguments[1].c_str()), std::atof(arguments[2].c_str()), std::atof(arguments[3].c_str())};
+      sensor.frames.boresight(raw(station), reference, arguments[4] == "1");
+    }
   }
   commands_.push_back(line);
 }

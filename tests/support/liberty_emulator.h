@@ -8,6 +8,7 @@
 
 #include "tests/support/emulator_pack.h"
 #include "tests/support/tracker_emulator.h"
+#include "tests/support/tracker_frames.h"
 
 namespace posed::test {
 
@@ -42,6 +43,8 @@ class LibertyEmulator final : public TrackerEmulator {
   void set_pose(int station, SourcePose pose) override { sensors_[station].pose = pose; }
   void set_motion(Motion motion) override { motion_ = std::move(motion); }
   void set_error_letter(int station, char letter) override { sensors_[station].letter = letter; }
+  // Of a stylus. In the mode that L 1 asks for it starts and stops the stream as well.
+  void press_button(int station, bool down);
   void set_distortion(int station, int level) { sensors_[station].distortion = level; }
   void set_count(std::uint32_t count) { count_ = count; }
   void stop_streaming() override { continuous_ = false; }
@@ -64,6 +67,8 @@ class LibertyEmulator final : public TrackerEmulator {
     LibertyPose pose;
     char letter = 0;
     int distortion = 0;
+    bool button = false, button_starts = false;
+    SensorFrames frames;
     std::array<double, 3> hemisphere{1, 0, 0};
     std::vector<int> list{2, 4, 1};
   };
@@ -78,6 +83,8 @@ class LibertyEmulator final : public TrackerEmulator {
   void answer(char command, int station, const std::vector<std::uint8_t>& body, const std::string& text);
   std::vector<std::uint8_t> cycle(char command);
   std::vector<std::uint8_t> record(int station, char command);
+  void set_frames(char command, const Arguments& arguments, const std::string& line);
+  SourcePose raw(int station);  // inches, as no command has changed it but the hemisphere's
   SourcePose measured(int station);
   Bytes framed(int station, char command, int error, const Bytes& body) const;
 

@@ -11,6 +11,7 @@ struct Values {
   double m[9];       // rows: the sensor's axes, in columns, in the source frame
   std::uint32_t count, milliseconds;
   int distortion;
+  bool button;
 };
 
 void put_item(Bytes& to, int item, const Values& v) {
@@ -42,12 +43,15 @@ void put_item(Bytes& to, int item, const Values& v) {
     case 9:
       put_u32(to, v.count);
       break;
+    case 10:
+      put_u32(to, v.button ? 1 : 0);
+      break;
     case 11:
       put_u32(to, static_cast<std::uint32_t>(v.distortion));
       break;
     default:
       put_u32(to, 0);
-      break;  // stylus, external sync
+      break;  // external sync
   }
 }
 
@@ -84,6 +88,9 @@ void put_item_text(Bytes& to, int item, const Values& v) {
     case 9:
       put_text(to, std::to_string(v.count));
       break;
+    case 10:
+      put_text(to, v.button ? "1" : "0");
+      break;
     case 11:
       put_text(to, std::to_string(v.distortion));
       break;
@@ -95,9 +102,13 @@ void put_item_text(Bytes& to, int item, const Values& v) {
 
 }  // namespace
 
-SourcePose LibertyEmulator::measured(int station) {
+SourcePose LibertyEmulator::raw(int station) {
   const SensorState& sensor = sensors_[station];
-  SourcePose pose = mirrored(motion_ ? motion_(station, count_) : sensor.pose, sensor.hemisphere.data());
+  return mirrored(motion_ ? motion_(station, count_) : sensor.pose, sensor.hemisphere.data());
+}
+
+SourcePose LibertyEmulator::measured(int station) {
+  SourcePose pose = sensors_[station].frames.of(raw(station));
   if (centimetres_) {
     pose.x *= 2.54;
     pose.y *= 2.54;
@@ -116,6 +127,7 @@ std::vector<std::uint8_t> LibertyEmulator::record(int station, char command) {
   v.milliseconds = static_cast<std::uint32_t>(std::uint64_t{count_} * 1000 /
                                               static_cast<unsigned>(rate_ == 4 ? kind_.rate_hz : kind_.rate_hz / 2));
   v.distortion = sensor.distortion;
+  v.button = sensor.button;
   Bytes body;
   for (const int item : sensor.list) binary_ ? put_item(body, item, v) : put_item_text(body, item, v);
   if (binary_) {

@@ -4,7 +4,7 @@
 //
 // Its sensors swing before a figure's hands. Each line on standard input is an act: pose N X Y Z [AZ EL ROLL] (metres
 // and degrees, source's frame) holds sensor N there; pivot N X Y Z TX TY TZ swings it about the point X Y Z, where the
-// tip of its stylus is (TX TY TZ in its own frame, metres); swing N lets it swing again; button 0|1 (FASTRAK, ISOTRAK).
+// tip of its stylus is (TX TY TZ in its own frame, metres); swing N lets it swing again; button 0|1 (station 1's).
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -88,6 +88,7 @@ class Stage {
       if (!bed_) return;
       return bed_->with_tracker([&](posed::test::TrackerEmulator& device) {
         if (auto* fastrak = dynamic_cast<FastrakEmulator*>(&device)) fastrak->press_button(station != 0);
+        if (auto* liberty = dynamic_cast<LibertyEmulator*>(&device)) liberty->press_button(1, station != 0);
       });
     }
     const std::lock_guard lock(mutex_);

@@ -18,7 +18,9 @@ struct UsbTestbedOptions {
   std::uint8_t out = 0x04, in = 0x88;
   std::uint8_t stream = 0;  // where cycles go; 0: where answers do
   int packet = 512;
-  int stations = 2;                                               // of the LIBERTY, where no other device is given
+  int port = 1;        // of the bus' root hub
+  std::string serial;  // that it tells; empty: none, as of all that came before VIPER
+  int stations = 2;    // of the LIBERTY, where no other device is given
   std::function<std::unique_ptr<TrackerEmulator>()> make_device;  // unset: a LIBERTY
 };
 

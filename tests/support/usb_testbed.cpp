@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <memory>
+#include <mutex>
 #include <sstream>
 #include <utility>
 #include <vector>
@@ -26,13 +28,28 @@ std::string hex(const std::vector<std::uint8_t>& bytes) {
   return text;
 }
 
+// The one that umockdev has for a process, while any device is there; and the addresses of its bus.
+struct Bus {
+  UMockdevTestbed* testbed = umockdev_testbed_new();
+  int address = 0;
+  ~Bus() { g_object_unref(testbed); }
+
+  static std::shared_ptr<Bus> get() {
+    static std::mutex mutex;
+    static std::weak_ptr<Bus> shared;
+    const std::lock_guard lock(mutex);
+    auto bus = shared.lock();
+    if (!bus) shared = bus = std::make_shared<Bus>();
+    return bus;
+  }
+};
+
 }  // namespace
 
 class UsbTestbed::Kernel {
  public:
   Kernel(int packet, Usbfs::Written written) : usbfs(packet) {
     usbfs.on_write(std::move(written));
-    testbed = umockdev_testbed_new();
     handler = umockdev_ioctl_base_new();
     g_signal_connect(handler, "handle-ioctl", G_CALLBACK(on_ioctl), &usbfs);
     g_signal_connect(handler, "client-vanished", G_CALLBACK(on_vanished), &usbfs);
@@ -41,7 +58,6 @@ class UsbTestbed::Kernel {
   ~Kernel() {
     if (!node.empty()) umockdev_testbed_detach_ioctl(testbed, node.c_str(), nullptr);
     g_object_unref(handler);
-    g_object_unref(testbed);
   }
 
   // umockdev's thread.
@@ -53,10 +69,10 @@ class UsbTestbed::Kernel {
   }
 
   Usbfs usbfs;
-  UMockdevTestbed* testbed = nullptr;
+  std::shared_ptr<Bus> bus = Bus::get();
+  UMockdevTestbed* testbed = bus->testbed;
   UMockdevIoctlBase* handler = nullptr;
-  std::string node;
-  int address = 0;
+  std::string node, path;
   std::atomic<bool> plugged{false};
   std::atomic<int> empty_writes{0};
 };
@@ -78,6 +94,7 @@ UsbTestbed::UsbTestbed(UsbTestbedOptions options, std::unique_ptr<TrackerEmulato
     if (endpoint == options_.out) with_tracker([&](TrackerEmulator& heard) { heard.write(bytes); });
   };
   kernel_ = std::make_unique<Kernel>(options_.packet, written);
+  kernel_->path = "/devices/usb1/1-" + std::to_string(options_.port);
   begin();
 }
 
@@ -95,9 +112,9 @@ void UsbTestbed::carry(const TrackerEmulator::Output& output) {
 
 void UsbTestbed::plug() {
   Kernel& i = *kernel_;
-  ++i.address;
+  const int address = ++i.bus->address;
   char number[12];
-  std::snprintf(number, sizeof number, "%03d", i.address);
+  std::snprintf(number, sizeof number, "%03d", address);
   if (!i.node.empty()) umockdev_testbed_detach_ioctl(i.testbed, i.node.c_str(), nullptr);
   i.node = std::string("/dev/bus/usb/001/") + number;
   gchar* root = umockdev_testbed_get_root_dir(i.testbed);
@@ -107,11 +124,12 @@ void UsbTestbed::plug() {
   umockdev_testbed_attach_ioctl(i.testbed, i.node.c_str(), i.handler, nullptr);
   // Without the line "N:", which would make the node a regular file.
   std::ostringstream text;
-  text << "P: /devices/usb1\nE: SUBSYSTEM=usb\nE: DRIVER=usb\nE: BUSNUM=001\nE: DEVNUM=" << number
+  text << "P: " << i.path << "\nE: SUBSYSTEM=usb\nE: DRIVER=usb\nE: BUSNUM=001\nE: DEVNUM=" << number
        << "\nE: DEVNAME=" << i.node
-       << "\nE: DEVTYPE=usb_device\nA: bConfigurationValue=1\\n\nA: busnum=1\\n\nA: devnum=" << i.address
-       << "\\n\nA: speed=" << (options_.packet > 64 ? 480 : 12)
-       << "\\n\nH: descriptors=" << hex(descriptors_of(options_)) << "\n";
+       << "\nE: DEVTYPE=usb_device\nA: bConfigurationValue=1\\n\nA: busnum=1\\n\nA: devnum=" << address
+       << "\\n\nA: speed=" << (options_.packet > 64 ? 480 : 12) << "\\n\n"
+       << (options_.serial.empty() ? "" : "A: serial=" + options_.serial + "\\n\n")
+       << "H: descriptors=" << hex(descriptors_of(options_)) << "\n";
   GError* error = nullptr;
   if (!umockdev_testbed_add_from_string(i.testbed, text.str().c_str(), &error)) {
     std::fprintf(stderr, "umockdev: %s\n", error->message);
@@ -124,8 +142,9 @@ void UsbTestbed::unplug(bool as_error) {
   Kernel& i = *kernel_;
   i.plugged = false;
   i.usbfs.pull_out(as_error ? EPROTO : ESHUTDOWN);
-  umockdev_testbed_uevent(i.testbed, "/sys/devices/usb1", "remove");
-  umockdev_testbed_remove_device(i.testbed, "/sys/devices/usb1");
+  const std::string path = "/sys" + i.path;
+  umockdev_testbed_uevent(i.testbed, path.c_str(), "remove");
+  umockdev_testbed_remove_device(i.testbed, path.c_str());
 }
 
 bool UsbTestbed::plugged() const {

@@ -1,6 +1,6 @@
-// A USB bus that is not there, with one emulated tracker on it: unmodified libusb and an unmodified driver run against
-// it, in this process or a child, under umockdev-wrapper. It plays the kernel's usbfs; see usb_usbfs.h for what that
-// leaves out. Thread-safe. One at a time in a process.
+// A USB bus that is not there, with an emulated tracker at each port that is asked for: unmodified libusb and an
+// unmodified driver run against it, in this process or a child, under umockdev-wrapper. It plays the kernel's usbfs;
+// see usb_usbfs.h for what that leaves out. Thread-safe. Those of a process are on one bus.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,6 @@
 #include "tests/support/viper_emulator.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <numbers>
@@ -83,11 +84,43 @@ void ViperEmulator::execute(std::span<const std::uint8_t> frame) {
     for (const auto& [station, sensor] : sensors_) map |= sensor.detected ? 1u << (station - 1) : 0u;
     put_u32(payload, map);
   } else if (command == 6 && action == kGet) {
-    put_u32(payload, 3);
+    put_u32(payload, rate_);
+  } else if (command == 6 && action == kSet) {
+    if (frame.size() != 36 || word(frame, 28) >= std::size(kRates)) return refuse("invalid rate");
+    rate_ = word(frame, 28);
+  } else if (command == 0 && action == kSet) {
+    if (!set_hemisphere(argument, frame.subspan(28, frame.size() - 32))) return refuse("invalid hemisphere");
+  } else if (command == 1 && action == kSet) {
+    if (!set_filter(word(frame, 24), frame.subspan(28, frame.size() - 32))) return refuse("invalid filter");
   } else {
     return refuse("unknown command");
   }
   answer(command, kAck, argument, payload);
+}
+
+bool ViperEmulator::set_hemisphere(std::uint32_t sensor, std::span<const std::uint8_t> payload) {
+  const std::size_t words = old_hemispheres_ ? 2 : 1;
+  if (payload.size() != 4 * (words + 3)) return false;
+  for (auto& [station, state] : sensors_) {
+    if (sensor != ~0u && station != static_cast<int>(sensor) + 1) continue;
+    for (std::size_t i = 0; i < 3; ++i) {
+      float part = 0.0f;
+      std::memcpy(&part, payload.data() + 4 * (words + i), sizeof part);
+      state.hemisphere[i] = word(payload, 0) & 1 ? 0.0 : part;
+    }
+  }
+  return true;
+}
+
+bool ViperEmulator::set_filter(std::uint32_t target, std::span<const std::uint8_t> payload) {
+  if (payload.size() != 20 || target > 2 || word(payload, 0) > 8) return false;
+  Filter filter;
+  filter.level = word(payload, 0);
+  std::memcpy(filter.numbers.data(), payload.data() + 4, sizeof filter.numbers);
+  for (const int one : {1, 2}) {
+    if (target == 0 || static_cast<int>(target) == one) filters_[one] = filter;
+  }
+  return true;
 }
 
 void ViperEmulator::answer(std::uint32_t command, std::uint32_t action, std::uint32_t argument, const Bytes& payload) {
@@ -101,7 +134,8 @@ void ViperEmulator::answer(std::uint32_t command, std::uint32_t action, std::uin
 
 void ViperEmulator::put_sensor(Bytes& to, int station, const SourcePose& pose) const {
   static constexpr double kPerInch[] = {1.0, 1.0 / 12.0, 2.54, 0.0254};
-  put_u32(to, static_cast<std::uint32_t>(station - 1) | units_[0] << 8 | units_[1] << 10);
+  put_u32(to, static_cast<std::uint32_t>(station - 1) | units_[0] << 8 | units_[1] << 10 |
+                  sensors_.at(station).buttons << 12);
   for (const double v : {pose.x, pose.y, pose.z}) put_f32(to, v * kPerInch[units_[0]]);
   double q[4];
   rotation_of(pose, q);
@@ -121,7 +155,9 @@ Bytes ViperEmulator::pose_frame() {
   std::uint32_t count = 0;
   for (const auto& [station, sensor] : sensors_) {
     if (!sensor.detected) continue;
-    put_sensor(sensors, station, motion_ ? motion_(station, count_) : sensor.pose);
+    const SourcePose pose = motion_ ? motion_(station, count_) : sensor.pose;
+    const bool follows = sensor.hemisphere == std::array<double, 3>{0, 0, 0};
+    put_sensor(sensors, station, follows ? pose : mirrored(pose, sensor.hemisphere.data()));
     ++count;
   }
   Bytes frame;
@@ -136,9 +172,13 @@ Bytes ViperEmulator::pose_frame() {
 
 void ViperEmulator::tick() {
   if (frozen_) return;
-  ++count_;
-  // What nobody reads is lost after a while.
-  if (continuous_ && output_.size() < 40) output_.push_back({pose_frame(), true});
+  const int rate = kRates[rate_];
+  if (rate < rate_hz() && ++ticks_ % static_cast<std::uint32_t>(rate_hz() / rate) != 0) return;
+  for (int i = 0; i < std::max(1, rate / rate_hz()); ++i) {
+    ++count_;
+    // What nobody reads is lost after a while.
+    if (continuous_ && output_.size() < 40) output_.push_back({pose_frame(), true});
+  }
 }
 
 std::deque<TrackerEmulator::Output> ViperEmulator::drain() {
@@ -156,6 +196,9 @@ void ViperEmulator::power_cycle() {
   output_.clear();
   count_ = 0;
   units_ = {0, 0};
+  rate_ = 3;
+  filters_.clear();
+  for (auto& [station, sensor] : sensors_) sensor.hemisphere = {1, 0, 0};
   continuous_ = false;
 }
 

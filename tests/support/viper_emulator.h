@@ -20,7 +20,7 @@ class ViperEmulator final : public TrackerEmulator {
 
   using TrackerEmulator::write;
   void write(std::span<const std::uint8_t> bytes) override;
-  int rate_hz() const override { return 240; }
+  int rate_hz() const override { return 240; }  // of tick(); what it was told comes out of that
   void tick() override;
   std::deque<Output> drain() override;
   Bytes take();  // the same, as bytes
@@ -39,14 +39,26 @@ class ViperEmulator final : public TrackerEmulator {
   void set_mode(int mode) { mode_ = mode; }
   void set_units(std::uint32_t position, std::uint32_t orientation) { units_ = {position, orientation}; }
   void start() { continuous_ = true; }
+  void press_buttons(int station, std::uint32_t held) { sensors_[station].buttons = held; }
+  void set_old_hemispheres(bool old) { old_hemispheres_ = old; }  // with two words before the direction
+  struct Filter {
+    std::uint32_t level = 2;
+    std::array<float, 4> numbers{};
+  };
+  Filter filter(int target) const { return filters_.contains(target) ? filters_.at(target) : Filter{}; }  // 1: attitude
+  std::array<double, 3> hemisphere(int station) const { return sensors_.at(station).hemisphere; }  // 0 0 0: it follows
 
  private:
   struct Sensor {
     bool detected = false;
     SourcePose pose;
+    std::uint32_t buttons = 0;
+    std::array<double, 3> hemisphere{1, 0, 0};
   };
 
   void execute(std::span<const std::uint8_t> frame);
+  bool set_hemisphere(std::uint32_t sensor, std::span<const std::uint8_t> payload);
+  bool set_filter(std::uint32_t target, std::span<const std::uint8_t> payload);
   void answer(std::uint32_t command, std::uint32_t action, std::uint32_t argument, const Bytes& payload);
   Bytes pose_frame();
   void put_sensor(Bytes& to, int station, const SourcePose& pose) const;
@@ -58,8 +70,11 @@ class ViperEmulator final : public TrackerEmulator {
   std::uint32_t count_ = 0;
   std::array<std::uint32_t, 2> units_{0, 0};
   std::uint32_t self_test_ = 0;
+  static constexpr int kRates[] = {30, 60, 120, 240, 480, 960};
+  std::map<int, Filter> filters_;
+  std::uint32_t rate_ = 3, ticks_ = 0;
   int mode_ = 0, refusing_ = -1;
-  bool continuous_ = false;
+  bool continuous_ = false, old_hemispheres_ = false;
 };
 
 }  // namespace posed::test

@@ -6,7 +6,7 @@ const flags = [
   "--disable-sync", "--disable-quic", "--no-first-run", "--enable-unsafe-swiftshader",
 ];
 // Small, for a processor draws; wide enough for all that a laptop shows.
-const kSize = { width: 1100, height: 640 };
+const kSize = { width: 960, height: 580 };
 
 export function launch() {
   return chromium.launch({ executablePath: process.env.CHROMIUM || "/usr/bin/chromium", args: flags });

@@ -12,15 +12,22 @@ export class Daemon {
   #data = "";
   #listen = "127.0.0.1:0";
 
-  /** `args`: besides where it listens and keeps its data. */
-  constructor(program, args = []) {
+  /** `args`: besides where it listens and keeps its data. `under`: a program, with its words, that runs the daemon. */
+  constructor(program, args = [], under = []) {
     this.program = program;
     this.args = args;
+    this.under = under;
+  }
+
+  /** A line to the program that runs the daemon: what the hand does that holds an emulated tracker's sensors. */
+  act(line) {
+    this.#child.stdin.write(`${line}\n`);
   }
 
   async start() {
     this.#data ||= await mkdtemp(join(tmpdir(), "posed-e2e-"));
-    const child = spawn(this.program, ["--listen", this.#listen, "--data", this.#data, ...this.args], { stdio: ["ignore", "pipe", "inherit"] });
+    const [program, ...words] = [...this.under, this.program, "--listen", this.#listen, "--data", this.#data, ...this.args];
+    const child = spawn(program, words, { stdio: [this.under.length > 0 ? "pipe" : "ignore", "pipe", "inherit"] });
     this.#child = child;
     const lines = createInterface({ input: child.stdout });
     const said = await Promise.race([
@@ -37,6 +44,7 @@ export class Daemon {
     const child = this.#child;
     this.#child = null;
     if (!child || child.exitCode !== null) return;
+    child.stdin?.end();
     child.kill(signal);
     await once(child, "exit");
   }

@@ -2,6 +2,7 @@
 //   POSED_BIN=build/dev/bin POSED_VIEWER=build/dev/share/posed/viewer [CHROMIUM=...] [POSED_SHOTS=DIR] npm run e2e [-- FILTER]
 // Each check is one line of output. One browser and one daemon serve all but the checks that need another daemon; suites
 // of the same person share a page. No tracker where none is needed: what streams all the time is drawn all the time.
+import { existsSync } from "node:fs";
 import { join } from "node:path";
 import { launch, openPage } from "./browser.mjs";
 import { Daemon } from "./daemon.mjs";
@@ -11,6 +12,7 @@ import * as connection from "./checks/connection.mjs";
 import * as gallery from "./checks/gallery.mjs";
 import * as goals from "./checks/goals.mjs";
 import * as keyboard from "./checks/keyboard.mjs";
+import * as line from "./checks/line.mjs";
 import * as roles from "./checks/roles.mjs";
 import * as speed from "./checks/speed.mjs";
 import * as together from "./checks/together.mjs";
@@ -18,7 +20,7 @@ import * as trackers from "./checks/trackers.mjs";
 import * as undo from "./checks/undo.mjs";
 import * as views from "./checks/views.mjs";
 
-const suites = { views, goals, undo, body, keyboard, together, trackers, gallery, comfort, speed, roles, connection };
+const suites = { views, goals, undo, body, keyboard, together, trackers, gallery, comfort, speed, line, roles, connection };
 const filter = process.argv[2] ?? "";
 const bin = process.env.POSED_BIN ?? "build/dev/bin";
 const viewer = ["--viewer.path", process.env.POSED_VIEWER ?? join(bin, "../share/posed/viewer")];
@@ -37,7 +39,9 @@ const tools = {
     pages.push(page);
     return page;
   },
-  daemonWith: (args) => new Daemon(program, [...viewer, ...args]),
+  daemonWith: (args, under) => new Daemon(program, [...viewer, ...args], under),
+  /** Another program of the build; null where it was not built. */
+  built: (name) => (existsSync(join(bin, name)) ? join(bin, name) : null),
   shots: process.env.POSED_SHOTS,
 };
 

@@ -41,6 +41,10 @@ export function exposeDebugHandle(model: Model, views: Views): void {
     get work() {
       return [...model.work];
     },
+    /** Frames that drew, since the page began. */
+    get drawn() {
+      return model.frameMeter.total;
+    },
     views: {
       get cameras() {
         return views.cameras.state;

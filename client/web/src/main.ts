@@ -80,7 +80,7 @@ const bar = new Bar(model, hands, { reconnect: () => connection.connect(), link:
 const tabs = new Tabs([
   { id: "goals", title: "Goals", panel: new GoalPanel(model, requests) },
   { id: "body", title: "Body", panel: body },
-  { id: "trackers", title: "Trackers", panel: new TrackerPanel(model, requests) },
+  { id: "trackers", title: "Trackers", panel: new TrackerPanel(model, requests, () => views.cameras.here) },
   { id: "together", title: "Together", panel: new TogetherPanel(model, requests, rename) },
 ]);
 const hints = new Hints(model, () => model.change({ hintsDone: true }));

@@ -161,7 +161,7 @@ export class Session {
     this.model.stats = stats;
   }
 
-  private async fetchTrackers(): Promise<void> {
+  async fetchTrackers(): Promise<void> {
     const { trackers } = await this.rpc.request<{ trackers: TrackerInfo[] }>("tracker.list");
     this.model.setTrackers(trackers);
   }

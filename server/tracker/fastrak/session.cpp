@@ -6,11 +6,13 @@
 
 #include "server/tracker/conversation.h"
 #include "server/tracker/fastrak/reply.h"
+#include "server/tracker/fastrak/settings.h"
 
 namespace posed::tracker {
 namespace {
 
 constexpr double kCyclesPerSecond = 120.0;  // which the stations share
+constexpr int kStations = kFastrakStations;
 
 FastrakDecoder make_decoder(const FastrakOptions& options) {
   FastrakFormat format;
@@ -28,13 +30,9 @@ bool FastrakSession::set_up(Conversation& with) {
   // thrown away here.
   if (!with.make_quiet({"\rc", "\rc", "\rc"})) return false;
   decoder_ = make_decoder(options_);
-  stations_.reset();
-  if (!with.ask("l1\r", [this] { return stations_.has_value(); })) {
-    with.trouble(no_answer("FASTRAK", options_.baud));
-    return false;
-  }
+  if (!ask_stations(with) || !prefer(with)) return false;
   if (!with.write("u")) return false;  // centimetres
-  for (int station = 1; station <= 4; ++station) {
+  for (int station = 1; station <= kStations; ++station) {
     if ((*stations_ >> (station - 1) & 1) != 0 && !configure(station, with)) return false;
   }
   // From the factory a stylus' button starts and stops the stream.
@@ -46,6 +44,28 @@ bool FastrakSession::set_up(Conversation& with) {
   with.trouble(active == 0 ? "no receiver is switched on: see the switches on its back"
                            : "no data for 2 s: are the transmitter and the receivers plugged in?");
   return with.write("C");
+}
+
+bool FastrakSession::ask_stations(Conversation& with) {
+  stations_.reset();
+  if (with.ask("l1\r", [this] { return stations_.has_value(); })) return true;
+  with.trouble(no_answer("FASTRAK", options_.baud));
+  return false;
+}
+
+// What has been asked of the device, and no more: what somebody has set in it stays.
+bool FastrakSession::prefer(Conversation& with) {
+  const Preferences wish = with.preferences();
+  if (!found_) found_ = stations_;
+  const auto switches = fastrak_switches(wish, kStations, *stations_, *found_);
+  for (const std::string& command : switches) {
+    if (!with.write(command)) return false;
+  }
+  if (!switches.empty() && !ask_stations(with)) return false;
+  for (const std::string& command : fastrak_settings(wish, kStations)) {
+    if (!with.write(command)) return false;
+  }
+  return true;
 }
 
 bool FastrakSession::configure(int station, Conversation& with) const {

@@ -10,6 +10,8 @@
 
 namespace posed::tracker {
 
+inline constexpr int kFastrakStations = 4;
+
 struct FastrakOptions {
   std::string id = "fastrak";
   unsigned baud = 0;               // 0: on USB
@@ -26,11 +28,14 @@ class FastrakSession final : public Session {
   void leave(Conversation& with) override;
 
  private:
+  bool ask_stations(Conversation& with);
+  bool prefer(Conversation& with);
   bool configure(int station, Conversation& with) const;
 
   FastrakOptions options_;
   FastrakDecoder decoder_;
   std::optional<unsigned> stations_;  // bit 0 is station 1: those that are switched on
+  std::optional<unsigned> found_;     // those that were at first
 };
 
 // The answer to l1, as "1100": a digit a station. Nothing where it is something else.

@@ -6,6 +6,7 @@
 #include "server/tracker/conversation.h"
 #include "server/tracker/fastrak/reply.h"
 #include "server/tracker/fastrak/session.h"
+#include "server/tracker/fastrak/settings.h"
 
 namespace posed::tracker {
 namespace {
@@ -27,11 +28,7 @@ bool IsotrakSession::set_up(Conversation& with) {
   if (!with.make_quiet({"\rc", "\rc", "\rc"})) return false;
   if (!with.write("F")) return false;  // ASCII, for the answers
   decoder_ = IsotrakDecoder(format_of(options_));
-  stations_.reset();
-  if (!with.ask("l1\r", [this] { return stations_.has_value(); })) {
-    with.trouble(no_answer("ISOTRAK II", options_.baud));
-    return false;
-  }
+  if (!ask_stations(with) || !prefer(with)) return false;
   if (!with.write("u") || !with.write("O2,11\r") || !with.write("f")) return false;
   decoder_ = IsotrakDecoder(format_of(options_));
   with.begin(std::bit_width(*stations_));
@@ -40,6 +37,27 @@ bool IsotrakSession::set_up(Conversation& with) {
   with.trouble(active == 0 ? "no receiver is switched on: see the switches on its back"
                            : "no data for 2 s: are the transmitter and the receivers plugged in?");
   return with.write("C");
+}
+
+bool IsotrakSession::ask_stations(Conversation& with) {
+  stations_.reset();
+  if (with.ask("l1\r", [this] { return stations_.has_value(); })) return true;
+  with.trouble(no_answer("ISOTRAK II", options_.baud));
+  return false;
+}
+
+bool IsotrakSession::prefer(Conversation& with) {
+  const Preferences wish = with.preferences();
+  if (!found_) found_ = stations_;
+  const auto switches = fastrak_switches(wish, kIsotrakStations, *stations_, *found_);
+  for (const std::string& command : switches) {
+    if (!with.write(command)) return false;
+  }
+  if (!switches.empty() && !ask_stations(with)) return false;
+  for (const std::string& command : fastrak_settings(wish, kIsotrakStations)) {
+    if (!with.write(command)) return false;
+  }
+  return true;
 }
 
 void IsotrakSession::hear(const Reply& reply, Conversation& with) {

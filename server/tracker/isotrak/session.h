@@ -10,6 +10,8 @@
 
 namespace posed::tracker {
 
+inline constexpr int kIsotrakStations = 2;
+
 struct IsotrakOptions {
   std::string id = "isotrak";
   unsigned baud = 19200;
@@ -25,9 +27,13 @@ class IsotrakSession final : public Session {
   void leave(Conversation& with) override;
 
  private:
+  bool ask_stations(Conversation& with);
+  bool prefer(Conversation& with);
+
   IsotrakOptions options_;
   IsotrakDecoder decoder_;
   std::optional<unsigned> stations_;  // bit 0 is station 1: those that are switched on
+  std::optional<unsigned> found_;     // those that were at first
 };
 
 }  // namespace posed::tracker

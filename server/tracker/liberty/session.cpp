@@ -10,16 +10,24 @@
 namespace posed::tracker {
 namespace {
 
-// A serial line has no byte to spare: without the time stamp, which the frame count tells better.
-const std::vector<int> kListOnUsb{8, 9, 11, 3, 7}, kListOnSerial{9, 11, 3, 7};
-constexpr int kSerialRecord = 44, kBitsPerByte = 10;
+// A serial line has no byte to spare: without the time stamp, which the frame count tells better, and where it is full
+// without the distortion, which is advice, while a button is used.
+const std::vector<int> kListOnUsb{8, 9, 10, 11, 3, 7}, kListOnSerial{9, 10, 11, 3, 7}, kShortList{9, 10, 3, 7};
+constexpr int kSerialRecord = 48, kShortRecord = 44, kBitsPerByte = 10;
+constexpr double kLineUse = 0.97;  // the device's clock and the line's are two
 
-LibertyDecoder make_decoder(const LibertyOptions& options, int rate_hz) {
+std::string list_command(const std::vector<int>& items) {
+  std::string text = "O*";
+  for (const int item : items) text += "," + std::to_string(item);
+  return text + "\r";
+}
+
+LibertyDecoder make_decoder(const LibertyOptions& options, int rate_hz, const std::vector<int>& items = kListOnUsb) {
   LibertyFormat format;
   format.device = options.id;
   format.tag = options.family.tag;
   format.stations = options.family.stations;
-  format.items = options.baud > 0 ? kListOnSerial : kListOnUsb;
+  format.items = items;
   format.metres_per_unit = kMetresPerCentimetre;  // U1
   format.rate_hz = rate_hz;
   return std::move(*LibertyDecoder::make(std::move(format)));
@@ -35,7 +43,9 @@ std::string hemisphere_command(const Vec3& zenith) {
 }  // namespace
 
 Abilities liberty_abilities(const LibertyFamily& family) {
-  Abilities can{{}, family.stations, true, true};
+  Abilities can;
+  can.stations = family.stations;
+  can.switches = can.hemispheres = can.follows = can.filters = true;
   if (family.half_rate_hz) can.rates = {static_cast<double>(family.rate_hz), static_cast<double>(family.half_rate_hz)};
   return can;
 }
@@ -59,8 +69,10 @@ bool LibertySession::set_up(Conversation& with) {
   const int rate_hz = choose_rate(std::popcount(*stations_), with);
   if (options_.family.half_rate_hz && !with.write(rate_hz == options_.family.rate_hz ? "R4\r" : "R3\r")) return false;
   if (options_.hemisphere && !with.write(hemisphere_command(*options_.hemisphere))) return false;
-  if (!with.write(serial() ? "O*,9,11,3,7\r" : "O*,8,9,11,3,7\r")) return false;
-  decoder_ = make_decoder(options_, rate_hz);
+  const std::vector<int>& list = choose_list(std::popcount(*stations_) * rate_hz);
+  // In its other mode a stylus' button starts and stops the stream.
+  if (!with.write("L*,0\r") || !with.write(list_command(list))) return false;
+  decoder_ = make_decoder(options_, rate_hz, list);
   with.begin(std::bit_width(*stations_));
   with.nominal_rate(rate_hz);
   with.trouble(*stations_ == 0 ? "no sensor is plugged in" : "no data for 2 s: is the source plugged in?");
@@ -106,7 +118,7 @@ bool LibertySession::prefer(Conversation& with) const {
 // What a serial line carries is less than what the device measures.
 int LibertySession::choose_rate(int sensors, Conversation& with) const {
   const LibertyFamily& family = options_.family;
-  const int most = serial() ? static_cast<int>(options_.baud) / kBitsPerByte / kSerialRecord : 1'000'000;
+  const int most = serial() ? static_cast<int>(options_.baud) / kBitsPerByte / kShortRecord : 1'000'000;
   const std::optional<double> wish = with.preferences().rate_hz;
   const bool slow = wish && *wish == family.half_rate_hz;
   if (!slow && sensors * family.rate_hz <= most) return family.rate_hz;
@@ -116,6 +128,11 @@ int LibertySession::choose_rate(int sensors, Conversation& with) const {
                   std::to_string(slower) + " Hz, so that frames will be missing: use USB, or fewer sensors");
   }
   return slower;
+}
+
+const std::vector<int>& LibertySession::choose_list(int records_per_second) const {
+  if (!serial()) return kListOnUsb;
+  return records_per_second * kSerialRecord * kBitsPerByte <= kLineUse * options_.baud ? kListOnSerial : kShortList;
 }
 
 void LibertySession::hear(const Reply& reply, Conversation& with) {

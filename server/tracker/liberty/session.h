@@ -50,6 +50,7 @@ class LibertySession final : public Session {
  private:
   bool serial() const { return options_.baud > 0; }
   int choose_rate(int sensors, Conversation& with) const;
+  const std::vector<int>& choose_list(int records_per_second) const;
   bool ask_stations(Conversation& with);
   bool prefer(Conversation& with) const;
 

@@ -19,7 +19,8 @@ struct HidrawPaths {
 
 class SpacemousePort final : public Port {
  public:
-  explicit SpacemousePort(TimeSource now, HidrawPaths paths = {});
+  // `wanted`: as of UsbPort; its port is as the kernel tells it of HID, "usb-0000:00:14.0-2".
+  explicit SpacemousePort(TimeSource now, std::string wanted = "", HidrawPaths paths = {});
   ~SpacemousePort() override;
 
   Opened open(const std::function<bool()>& stopping) override;
@@ -29,6 +30,7 @@ class SpacemousePort final : public Port {
  private:
   struct Loop;
   TimeSource now_;
+  std::string wanted_;
   HidrawPaths paths_;
   std::unique_ptr<Loop> loop_;
 };

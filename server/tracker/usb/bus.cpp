@@ -4,6 +4,8 @@
 
 #include <sys/types.h>
 
+#include <fstream>
+#include <string>
 #include <utility>
 
 namespace posed::tracker {
@@ -68,6 +70,19 @@ void UsbBus::interrupt() {
 
 bool UsbBus::take_change() {
   return std::exchange(changed_, false);
+}
+
+// The kernel's copy of the serial number: asking the device would mean to open it, whoever has it.
+DevicePlace UsbBus::place(const UsbDevicePtr& device) {
+  constexpr int kDeepest = 7;
+  std::uint8_t ports[kDeepest] = {};
+  DevicePlace place;
+  place.port = std::to_string(libusb_get_bus_number(device.get()));
+  const int depth = libusb_get_port_numbers(device.get(), ports, kDeepest);
+  for (int i = 0; i < depth; ++i) place.port += (i == 0 ? "-" : ".") + std::to_string(ports[i]);
+  std::ifstream file("/sys/bus/usb/devices/" + place.port + "/serial");
+  std::getline(file, place.serial);
+  return place;
 }
 
 UsbIdentity UsbBus::identity(const UsbDevicePtr& device) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/result.h"
+#include "server/tracker/owners.h"
 
 struct libusb_context;
 struct libusb_device;
@@ -35,6 +36,8 @@ class UsbBus {
   bool take_change();  // whether one of the vendor's came or went since the last call
 
   static UsbIdentity identity(const UsbDevicePtr& device);
+  // Its port as "1-2.3", as lsusb -t and sysfs have it; the serial number that it has told the kernel, if any.
+  static DevicePlace place(const UsbDevicePtr& device);
 
  private:
   UsbBus(libusb_context* context, std::uint16_t vendor);

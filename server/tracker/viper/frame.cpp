@@ -60,7 +60,8 @@ ViperFrame examine_viper_frame(std::span<const std::uint8_t> bytes) {
   return frame.whole ? frame : ViperFrame{};
 }
 
-std::string viper_command(ViperCommand command, ViperAction action, std::span<const std::uint32_t> payload) {
+std::string viper_command(ViperCommand command, ViperAction action, std::span<const std::uint32_t> payload,
+                          ViperArguments about) {
   constexpr std::uint32_t kAnyUnit = 0xffffffff;
   std::string frame;
   put(frame, kViperCommandPreamble);
@@ -68,8 +69,8 @@ std::string viper_command(ViperCommand command, ViperAction action, std::span<co
   put(frame, kAnyUnit);
   put(frame, command);
   put(frame, static_cast<std::uint32_t>(action));
-  put(frame, 0);  // of all sensors
-  put(frame, 0);
+  put(frame, about.sensor);
+  put(frame, about.qualifier);
   for (const std::uint32_t word : payload) put(frame, word);
   put(frame, crc16({reinterpret_cast<const std::uint8_t*>(frame.data()), frame.size()}));
   return frame;

@@ -23,6 +23,8 @@ inline constexpr std::uint32_t kViperMostSensors = 16;
 enum class ViperAction : std::uint32_t { set = 0, get = 1, reset = 2, ack = 3, nak = 4, ack_with_warning = 5 };
 
 enum ViperCommand : std::uint32_t {
+  kViperHemisphere = 0,
+  kViperFilter = 1,
   kViperFrameRate = 6,
   kViperUnits = 7,
   kViperStationMap = 10,
@@ -40,7 +42,13 @@ struct ViperFrame {
 };
 ViperFrame examine_viper_frame(std::span<const std::uint8_t> bytes);
 
+// Whom a command is about, and how; most need neither.
+struct ViperArguments {
+  std::uint32_t sensor = 0;  // from 0; ~0u: all
+  std::uint32_t qualifier = 0;
+};
 // A command, to any unit.
-std::string viper_command(ViperCommand command, ViperAction action, std::span<const std::uint32_t> payload = {});
+std::string viper_command(ViperCommand command, ViperAction action, std::span<const std::uint32_t> payload = {},
+                          ViperArguments about = {});
 
 }  // namespace posed::tracker

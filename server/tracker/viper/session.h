@@ -7,11 +7,16 @@
 #include <string>
 #include <vector>
 
+#include "server/tracker/preferences.h"
 #include "server/tracker/session.h"
 #include "server/tracker/viper/decoder.h"
 #include "server/tracker/viper/frame.h"
 
 namespace posed::tracker {
+
+// What tracker.configure may ask of it, and what it is from the factory.
+Abilities viper_abilities();
+Preferences viper_defaults();
 
 struct ViperOptions {
   std::string id = "viper";
@@ -30,6 +35,11 @@ class ViperSession final : public Session {
   // The answer's payload; nothing where it refuses, or does not answer: the conversation was told which.
   std::optional<std::vector<std::uint8_t>> ask(ViperCommand command, ViperAction action, Conversation& with,
                                                std::span<const std::uint32_t> payload = {});
+  // What has been asked of it; a refusal is told, and the stream goes on without.
+  bool prefer(Conversation& with);
+  // The answer, where there is one.
+  const Reply* tell(ViperCommand command, std::span<const std::uint32_t> payload, ViperArguments about,
+                    Conversation& with);
 
   ViperOptions options_;
   ViperDecoder decoder_;

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "client/lib/client.h"
 #include "tests/bench/stream/contestants.h"
+#include "tests/bench/stream/daemon.h"
 #include "tests/bench/stream/folder.h"
 #include "tests/bench/stream/measures.h"
 #include "tests/bench/stream/viewers.h"
@@ -17,26 +17,6 @@ namespace {
 
 // The newest frame is up to a tick old when a viewer wakes.
 constexpr Nanoseconds kFresh = 10 * kMillisecond;
-
-client::Client connect(const Child& daemon) {
-  auto made = client::Client::connect("tcp://127.0.0.1:" + std::to_string(daemon.port()));
-  if (!made) throw std::runtime_error(made.error().message);
-  return std::move(*made);
-}
-
-// The daemon's clock as we read it: the pings with the shortest way there and back decide.
-Nanoseconds clock_offset(client::Client& client) {
-  Nanoseconds best = INT64_MAX, offset = 0;
-  for (int i = 0; i < 200; ++i) {
-    const Nanoseconds before = monotonic_now();
-    const auto ping = client.call<proto::PingResult>(proto::SessionPing{});
-    const Nanoseconds after = monotonic_now();
-    if (!ping || after - before >= best) continue;
-    best = after - before;
-    offset = (ping->receive_t_ns + ping->send_t_ns) / 2 - (before + after) / 2;
-  }
-  return offset;
-}
 
 // With so many requests under way all the time.
 double ping_rate(std::uint16_t port, int depth, Nanoseconds span) {
@@ -61,17 +41,10 @@ double ping_rate(std::uint16_t port, int depth, Nanoseconds span) {
 
 }  // namespace
 
-void Verdict::judge(bool holds, const char* pattern, double value, double bar) {
-  ++(holds ? held : missed);
-  std::printf("   %-6s ", holds ? "held" : "MISSED");
-  std::printf(pattern, value, bar);
-  std::printf("\n");
-}
-
 void whole_daemon(BenchOutput& out, int viewers) {
   const Folder folder;
-  const auto daemon = start_daemon(out.seed(), folder.path());
-  auto control = connect(*daemon);
+  const auto daemon = start_daemon("simulated:" + std::to_string(out.seed()), folder.path());
+  auto control = connect_to_daemon(*daemon);
   for (const auto& [method, params] :
        {std::pair{"goal.set", R"({"id":"hand","at":"right_hand","position":[0.4,-0.3,1.2]})"},
         std::pair{"binding.set", R"({"sensor":"simulated:1","to":{"goal":"hand"}})"}}) {
@@ -140,7 +113,7 @@ void many_connections(BenchOutput& out, Verdict& verdict) {
 
 void pings(BenchOutput& out, Verdict& verdict) {
   const Folder folder;
-  const auto daemon = start_daemon(out.seed(), folder.path());
+  const auto daemon = start_daemon("simulated:" + std::to_string(out.seed()), folder.path());
   std::printf("\nsession.ping of the whole daemon, on one connection\n");
   for (const int depth : {1, 32}) {
     std::vector<double> rates;

@@ -2,14 +2,9 @@
 #pragma once
 
 #include "tests/bench/bench_output.h"
+#include "tests/bench/verdict.h"
 
 namespace posed::test {
-
-// Whether all that a case promises was held; with --quick that says nothing.
-struct Verdict {
-  int held = 0, missed = 0;
-  void judge(bool holds, const char* pattern, double value, double bar);
-};
 
 // `viewers` of a stream of `rate_hz`, by everyone in turn, again and again.
 void fan_out(BenchOutput& out, Verdict& verdict, int viewers, double rate_hz);

@@ -190,13 +190,4 @@ std::vector<Contestant> brokers(std::string& missing) {
   return found;
 }
 
-std::unique_ptr<Child> start_daemon(std::uint64_t seed, const std::string& data) {
-  const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "posed";
-  const std::uint16_t port = free_port();
-  return std::make_unique<Child>(
-      std::vector<std::string>{program, "--tracker", "simulated:" + std::to_string(seed), "--data", data, "--listen",
-                               "127.0.0.1:" + std::to_string(port)},
-      port);
-}
-
 }  // namespace posed::test

@@ -32,7 +32,4 @@ Contestant posed_capped(double rate_hz);
 // The brokers that are installed. Names the Debian packages of those that are not.
 std::vector<Contestant> brokers(std::string& missing);
 
-// The whole daemon, as it is installed, with a simulated tracker. It keeps what must survive in the folder `data`.
-std::unique_ptr<Child> start_daemon(std::uint64_t seed, const std::string& data);
-
 }  // namespace posed::test

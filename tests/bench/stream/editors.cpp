@@ -13,6 +13,7 @@
 
 #include "tests/bench/stream/cases.h"
 #include "tests/bench/stream/contestants.h"
+#include "tests/bench/stream/daemon.h"
 #include "tests/bench/stream/folder.h"
 #include "tests/bench/stream/measures.h"
 #include "tests/bench/stream/viewers.h"
@@ -129,7 +130,7 @@ void editors_and_viewers(BenchOutput& out, Verdict& verdict) {
   Arrived sync = syncs(disk.path(), out.quick() ? 20 : 300);
   std::printf("\n%d viewers at %.0f Hz and %d editors at %.0f edits a second; data in memory\n", viewers, rate_hz,
               editors, edits_hz);
-  const auto daemon = start_daemon(out.seed(), memory.path());
+  const auto daemon = start_daemon("simulated:" + std::to_string(out.seed()), memory.path());
   Viewers load(daemon->port(), Framing::lines, subscribe_line(0, rate_hz), viewers);
   const Nanoseconds span = out.quick() ? kSecond : 10 * kSecond;
   Editors edit(daemon->port(), editors, edits_hz);
@@ -170,7 +171,7 @@ void durable_edits(BenchOutput& out) {
   std::printf("\ngoal.set, answered when the disk has it\n");
   for (const auto& [where, place] : {std::pair{"disk", Folder::kOnDisk}, std::pair{"memory", Folder::kInMemory}}) {
     const Folder folder(place);
-    const auto daemon = start_daemon(out.seed(), folder.path());
+    const auto daemon = start_daemon("simulated:" + std::to_string(out.seed()), folder.path());
     for (const int depth : {1, 32}) {
       const int fd = connect_to(daemon->port());
       Arrived replies;

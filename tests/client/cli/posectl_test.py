@@ -48,7 +48,8 @@ class Posectl(unittest.TestCase):
     def setUp(self):
         for line in ("scene new standing", "goal set right_hand 0.5 -0.3 1.2", "object set chair 0.6 0 0.45",
                      "binding set simulated:1 --goal body.right_hand.position --id hand", "camera set main 2 0 1.5",
-                     "scene save monday"):
+                     "scene save monday", "tracker tip simulated:1 --offset 0.15 0 0 --name monday",
+                     "tracker configure simulated --calibration none"):
             self.posectl(*line.split())
 
     def commands(self, *path):

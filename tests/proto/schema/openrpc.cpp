@@ -109,6 +109,7 @@ Json methods() {
       row<TrackerAlign, CalibrationResult>("Where the tracker's source is, by points that were touched."),
       row<TrackerTip, CalibrationResult>("Where a stylus' tip is in its sensor's frame."),
       row<TrackerBoresight, CalibrationResult>("How a sensor's present turn is to be read."),
+      row<TrackerForget, EmptyResult>("Keeps a calibration no longer."),
       row<StreamSubscribe, SubscribeResult>("Asks for a stream; it comes as notices stream.frame."),
       row<StreamUnsubscribe, SubscribeResult>("Ends a stream."),
       row<StreamAck, EmptyResult>("Says which frame one has seen, where there is credit."),

@@ -275,6 +275,7 @@ def walk():
     yield call("tracker.configure", tracker="simulated", calibration="monday")
     yield call("tracker.list")
     yield call("tracker.reset", tracker="simulated")
+    yield call("tracker.forget", tracker="simulated", name="monday")
     yield call("tracker.release", tracker="simulated")
     yield call("stream.subscribe", stream="stats")
     yield call("stream.ack", stream="stats", seq=1)

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "server/net/accept_encoding.h"
 #include "server/net/detect.h"
 #include "server/net/host_policy.h"
 #include "server/net/http_site.h"
@@ -173,6 +174,38 @@ TEST(PlainPath, DecodesAndRefuses) {
   }
 }
 
+TEST(AcceptEncoding, GzipWhereItIsWelcomeAndNoLessThanPlainBytes) {
+  for (const char* yes :
+       {"gzip", "GZIP", "x-gzip", "gzip, deflate, br, zstd", "deflate,gzip", "br;q=1.0, gzip;q=0.8, *;q=0.1", "*",
+        "gzip;q=0.001", "gzip ; q=0.5", "gzip;q=1, identity;q=1", "identity;q=0.5, gzip;q=1.0", "*;q=0.5",
+        "gzip;q=1;level=9", ", gzip", "identity;q=0, *", "br;q=0, gzip"}) {
+    EXPECT_TRUE(prefers_gzip(yes)) << yes;
+  }
+  for (const char* no : {"",
+                         "identity",
+                         "br",
+                         "gzip;q=0",
+                         "gzip;q=0.000",
+                         "*;q=0",
+                         "gzip;q=0, *",
+                         "br;q=1, gzip;q=0, deflate",
+                         "deflate, gzip;q=0",
+                         "identity;q=1, gzip;q=0.5",
+                         "identity, *;q=0.5",
+                         "gzip;q=2",
+                         "gzip;q=-1",
+                         "gzip;q=x",
+                         "gzip;q=nan",
+                         "gzip;q=1x",
+
+                         "gzipped",
+                         "x gzip",
+                         ";;;",
+                         "\"gzip\""}) {
+    EXPECT_FALSE(prefers_gzip(no)) << no;
+  }
+}
+
 class HttpFilesTest : public ::testing::Test {
  protected:
   HttpFilesTest() {
@@ -222,6 +255,34 @@ TEST_F(HttpFilesTest, ReadsAgainWhatHasChanged) {
   EXPECT_NE(first->etag, second->etag);
 }
 
+TEST_F(HttpFilesTest, TheTwinThatIsPacked) {
+  HttpFiles files(top / "viewer");
+  EXPECT_FALSE(files.find("/")->gzip);
+  write("viewer/index.html.gz", "packed");
+  const auto page = files.find("/");
+  ASSERT_TRUE(page && page->gzip) << "seen without a restart";
+  EXPECT_EQ(*page->gzip, "packed");
+  EXPECT_EQ(*page->body, "<p>viewer");
+  EXPECT_EQ(files.find("/")->gzip, page->gzip) << "kept";
+  write("viewer/index.html.gz", "packed anew");
+  EXPECT_EQ(*files.find("/")->gzip, "packed anew");
+
+  fs::last_write_time(top / "viewer/index.html.gz",
+                      fs::last_write_time(top / "viewer/index.html") - std::chrono::hours(1));
+  EXPECT_FALSE(files.find("/")->gzip) << "packed before the file was last written";
+}
+
+TEST_F(HttpFilesTest, ATwinIsAFileOfTheRootAsAnyOther) {
+  fs::create_symlink(top / "secret.txt", top / "viewer/index.html.gz");
+  fs::create_directory(top / "viewer/assets/app-1a2b.js.gz");
+  write("viewer/alone.html.gz", "packed");
+  HttpFiles files(top / "viewer");
+  ASSERT_TRUE(files.find("/") && files.find("/assets/app-1a2b.js"));
+  EXPECT_FALSE(files.find("/")->gzip);
+  EXPECT_FALSE(files.find("/assets/app-1a2b.js")->gzip);
+  EXPECT_FALSE(files.find("/alone.html")) << "packed bytes alone are no page";
+}
+
 TEST_F(HttpFilesTest, AViewerThatIsNotThere) {
   EXPECT_FALSE(HttpFiles("").present());
   EXPECT_FALSE(HttpFiles("").find("/"));
@@ -240,6 +301,42 @@ TEST_F(HttpFilesTest, TheSiteAnswersConditionally) {
   const HttpReply second = site.answer(request);
   EXPECT_EQ(second.status, 304);
   EXPECT_EQ(second.body, nullptr);
+}
+
+TEST_F(HttpFilesTest, TheSiteSendsPackedBytesToWhoWantsThem) {
+  write("viewer/index.html.gz", "packed");
+  HttpSite site(HostPolicy(true, {}, {}), top / "viewer");
+  HttpRequest request;
+  request.method = "GET";
+  request.target = "/";
+  request.host = "localhost";
+  const auto says = [](const HttpReply& reply, std::string_view header) {
+    return reply.headers.find(header) != std::string::npos;
+  };
+  const auto etag = [](const HttpReply& reply) { return reply.headers.substr(6, reply.headers.find('\r') - 6); };
+
+  const HttpReply plain = site.answer(request);
+  EXPECT_EQ(*plain.body, "<p>viewer");
+  EXPECT_FALSE(says(plain, "Content-Encoding"));
+  EXPECT_TRUE(says(plain, "Vary: Accept-Encoding\r\n")) << "a cache between must know";
+  request.accept_encoding = "gzip, deflate";
+  const HttpReply packed = site.answer(request);
+  EXPECT_EQ(*packed.body, "packed");
+  EXPECT_EQ(packed.content_type, "text/html; charset=utf-8");
+  EXPECT_TRUE(says(packed, "Content-Encoding: gzip\r\n"));
+  EXPECT_TRUE(says(packed, "Vary: Accept-Encoding\r\n"));
+  EXPECT_NE(etag(plain), etag(packed));
+
+  request.if_none_match = etag(packed);
+  const HttpReply again = site.answer(request);
+  EXPECT_EQ(again.status, 304);
+  EXPECT_TRUE(says(again, "Vary: Accept-Encoding\r\n"));
+  request.accept_encoding = "gzip;q=0";
+  EXPECT_EQ(site.answer(request).status, 200) << "what it has is not what it may get now";
+
+  request.target = "/assets/app-1a2b.js";
+  request.accept_encoding = "gzip";
+  EXPECT_FALSE(says(site.answer(request), "Vary")) << "there is only one";
 }
 
 }  // namespace

@@ -72,6 +72,22 @@ TEST_F(Http, RefusesWhatIsNotThereAndWhatIsOutside) {
   }
 }
 
+TEST_F(Http, PackedFilesGoToWhoTakesThem) {
+  std::ofstream(folder / "big.js.gz") << "packed";
+  for (const char* takes : {"Accept-Encoding: gzip, br\r\n", "Accept-Encoding: br\r\nAccept-Encoding: gzip\r\n"}) {
+    const std::string answer = fetch("GET", "/big.js", takes);
+    EXPECT_TRUE(has(answer, "Content-Encoding: gzip\r\n")) << takes;
+    EXPECT_TRUE(has(answer, "Content-Type: text/javascript; charset=utf-8\r\n"));
+    EXPECT_TRUE(has(answer, "Content-Length: 6\r\n"));
+    EXPECT_EQ(body_of(answer), "packed");
+  }
+  for (const char* refuses : {"", "Accept-Encoding: gzip;q=0\r\n", "Accept-Encoding: identity\r\n"}) {
+    const std::string answer = fetch("GET", "/big.js", refuses);
+    EXPECT_FALSE(has(answer, "Content-Encoding")) << refuses;
+    EXPECT_EQ(body_of(answer).size(), 3'000'000u) << refuses;
+  }
+}
+
 TEST_F(Http, HeadIsGetWithoutTheBody) {
   const std::string answer = fetch("HEAD", "/big.js");
   EXPECT_TRUE(answer.starts_with("HTTP/1.1 200 OK\r\n"));

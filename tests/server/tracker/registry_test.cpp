@@ -19,9 +19,10 @@ TEST(Registry, MakesWhatItServes) {
     EXPECT_EQ((*tracker)->kind(), "simulated");
     EXPECT_EQ((*tracker)->id(), "simulated");
   }
-  for (const char* spec : {"liberty", "liberty:usb", "liberty:/dev/ttyUSB0", "patriot", "patriot:/dev/ttyS0@57600",
-                           "fastrak:usb", "fastrak:/dev/serial/by-id/usb-FTDI@home-if00-port0@19200",
-                           "isotrak:/dev/ttyS0", "viper", "viper:usb", "spacemouse"}) {
+  for (const char* spec :
+       {"liberty", "liberty:usb", "liberty:/dev/ttyUSB0", "patriot", "patriot:/dev/ttyS0@57600", "fastrak:usb",
+        "fastrak:/dev/serial/by-id/usb-FTDI@home-if00-port0@19200", "isotrak:/dev/ttyS0", "viper", "viper:usb",
+        "spacemouse", "liberty:usb:1-2.3", "viper:usb:4711", "spacemouse:usb:A1"}) {
     const auto tracker = make_tracker(spec, no_time);
     ASSERT_TRUE(tracker) << spec << ": " << tracker.error().message;
     EXPECT_EQ((*tracker)->kind(), std::string(spec).substr(0, (*tracker)->kind().size()));
@@ -30,8 +31,9 @@ TEST(Registry, MakesWhatItServes) {
 }
 
 TEST(Registry, APlaceThatCannotBeIsRefusedWithTheCure) {
-  for (const char* spec : {"liberty:ttyS0", "fastrak:/dev/ttyS0@", "fastrak:/dev/ttyS0@fast", "fastrak:/dev/ttyS0@0",
-                           "patriot:@9600", "isotrak", "isotrak:usb", "viper:/dev/ttyS0"}) {
+  for (const char* spec :
+       {"liberty:ttyS0", "fastrak:/dev/ttyS0@", "fastrak:/dev/ttyS0@fast", "fastrak:/dev/ttyS0@0", "patriot:@9600",
+        "isotrak", "isotrak:usb", "viper:/dev/ttyS0", "liberty:usb:", "isotrak:usb:1-1"}) {
     const auto tracker = make_tracker(spec, no_time);
     ASSERT_FALSE(tracker) << spec;
     EXPECT_EQ(tracker.error().code, "invalid_params") << spec;

@@ -14,8 +14,11 @@ export const checks = [
 ];
 
 const elbow = "left_lower_arm";
-const choose = async (page, segment) => {
-  while ((await state(page)).selected.segment?.segment !== segment) await page.keyboard.press("]");
+/** By its name in the list. */
+export const choose = async (page, segment) => {
+  await page.getByTestId("tab-body").click();
+  await page.getByTestId(`segment-${segment}`).getByRole("button", { name: segment.replaceAll("_", " "), exact: true }).click();
+  await until(async () => (await state(page)).selected.segment?.segment === segment, `${segment} to be chosen`);
 };
 
 async function choosesByClick({ page }) {

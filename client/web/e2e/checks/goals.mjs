@@ -1,6 +1,7 @@
 // Goals: made by a click, dragged in every view, weighed, explained.
 import assert from "node:assert/strict";
 import { apart, begin, call, distance, figurePose, project, rectOf, state, until } from "../browser.mjs";
+import { choose } from "./body.mjs";
 
 export const hand = "body.right_hand.position";
 
@@ -17,6 +18,7 @@ export const checks = [
   ["the list says state, error, share of force and why not", explains],
   ["weights decide where two goals pull against each other", balances],
   ["every kind of goal can be made, and its handle dragged", kinds],
+  ["balance and posture of the whole figure are made by hand, and what it stands on is drawn", wholeFigure],
   ["an orientation goal is turned by its rings", turns],
   ["what is pointed at is labelled with distance and weight", labels],
   ["a goal that is taken away under the hand is said", refusal],
@@ -172,13 +174,9 @@ async function balances({ page }) {
 async function kinds({ page }) {
   await begin(page, "standing");
   const made = {};
-  const choose = async (segment) => {
-    await page.keyboard.press("]");
-    while ((await state(page)).selected.segment?.segment !== segment) await page.keyboard.press("]");
-    await page.getByTestId("tab-goals").click();
-  };
   for (const [kind, payload] of [["orientation"], ["pose"], ["aim"], ["plane"], ["line"], ["distance"], ["pole", "aim"]]) {
-    await choose("left_hand");
+    await choose(page, "left_hand");
+    await page.getByTestId("tab-goals").click();
     const before = Object.keys((await state(page)).scene.goals);
     await page.getByTestId("add-goal").selectOption(kind);
     const id = await until(async () => Object.keys((await state(page)).scene.goals).find((other) => !before.includes(other)), `a goal of kind ${kind}`);
@@ -198,6 +196,30 @@ async function kinds({ page }) {
   await page.mouse.move(from.x - 40, from.y - 60, { steps: 5 });
   await page.mouse.up();
   await until(async () => distance((await state(page)).scene.goals[made.pole].aim.point, before) > 0.05, "the pole's point to move");
+}
+
+async function wholeFigure({ page }) {
+  const { revision } = await call(page, "scene.new", { template: "standing", force: true });
+  await call(page, "goal.clear", { figure: "body" });
+  await until(async () => (await state(page)).poseRevision > revision && Object.keys((await state(page)).scene.goals).length === 0, "a figure without goals");
+  await page.keyboard.press("Escape");
+  await page.getByTestId("tab-goals").click();
+  const rect = await rectOf(page, "top");
+  const clip = { x: rect.left + 5, y: rect.top + 40, width: rect.width - 10, height: rect.height - 45 };
+  const bare = (await page.screenshot({ clip })).length;
+  await page.getByTestId("add-goal").selectOption("balance");
+  const goal = await until(async () => (await state(page)).scene.goals["body.balance"], "the goal of balance");
+  assert.deepEqual([...goal.balance.support].sort(), ["left_foot", "right_foot"]);
+  await until(async () => (await page.screenshot({ clip })).length > bare * 1.02, "the support to be drawn");
+  const before = await figurePose(page);
+  await page.getByTestId("add-goal").selectOption("posture");
+  const posture = await until(async () => (await state(page)).scene.goals["body.posture"]?.posture, "the goal of posture");
+  assert.equal(Object.keys(posture.joints).length, 17);
+  await until(async () => (await state(page)).goals["body.posture"].pose?.state === "reached", "the posture to be what it is");
+  assert.ok(apart(before, await figurePose(page)) < 0.02, "it is met as the figure stands");
+  await page.getByTestId("add-goal").selectOption("rest");
+  await until(async () => (await state(page)).scene.goals["body.posture"].posture.pose === "rest", "the goal of rest");
+  await until(async () => apart(before, await figurePose(page)) > 0.1, "the arms to rise");
 }
 
 async function turns({ page }) {

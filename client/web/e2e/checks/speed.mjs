@@ -1,13 +1,15 @@
 // What the page costs: bytes, first paint, and its own script in a frame with five figures and forty goals.
 import assert from "node:assert/strict";
-import { gzipSync } from "node:zlib";
 import { call, state, until } from "../browser.mjs";
 
 const kBytes = 400 * 1024;
+const kPaintMs = 1500;
 const kFigures = 5;
 const kGoalsEach = 8;
 const kWorkMs = 4;
-const kWindow = 12;
+/** The engine has compiled what it runs often by then. */
+const kWarm = 30;
+const kFrames = 60;
 
 export const checks = [
   ["less than 400 KiB, compressed, come to the browser", bytes],
@@ -16,34 +18,85 @@ export const checks = [
   ["frames a second", frames],
 ];
 
-async function bytes({ open }) {
-  const page = await open({ waits: false });
-  const bodies = [];
-  page.on("response", (response) => bodies.push(response.body().catch(() => Buffer.alloc(0))));
-  await page.reload({ waitUntil: "networkidle" });
-  const sizes = (await Promise.all(bodies)).map((body) => gzipSync(body).length);
-  const sum = sizes.reduce((a, b) => a + b, 0);
-  assert.ok(sizes.length >= 3 && sum < kBytes, `${sum} bytes`);
-  return `${(sum / 1024).toFixed(0)} KiB in ${sizes.length} files`;
+/** As they went over the wire, heads and all: the browser's own count. */
+async function bytes({ open, daemon }) {
+  const page = await open({ url: new URL("healthz", daemon.url).href, waits: false });
+  // That page has no icon.
+  page.complaints.length = 0;
+  const network = await page.context().newCDPSession(page);
+  await network.send("Network.enable");
+  const [sizes, packed] = [new Map(), []];
+  network.on("Network.loadingFinished", ({ requestId, encodedDataLength }) => sizes.set(requestId, encodedDataLength));
+  network.on("Network.responseReceived", ({ response }) => response.headers["Content-Encoding"] === "gzip" && packed.push(response.url));
+  await page.goto(daemon.url, { waitUntil: "networkidle" });
+  const sum = [...sizes.values()].reduce((a, b) => a + b, 0);
+  assert.ok(sizes.size >= 3 && sum > 50 * 1024 && sum < kBytes, `${sum} bytes`);
+  assert.ok(packed.some((url) => url.endsWith(".js")) && packed.some((url) => url.endsWith(".css")), `packed came only ${packed}`);
+  return `${(sum / 1024).toFixed(0)} KiB in ${sizes.size} files`;
 }
 
-/** Told, not judged: a machine that is busy with other things is not the page's doing. */
+/** Of a browser that has nothing kept; the quickest of three, for what a busy machine does is not the page's doing. */
 async function firstPaint({ open }) {
-  const page = await open();
-  const ms = await until(() => page.evaluate(() => performance.getEntriesByName("first-contentful-paint")[0]?.startTime), "the first paint");
-  return `after ${Math.round(ms)} ms (wanted: 1500)`;
+  const paints = [];
+  for (let i = 0; i < 3; i++) {
+    const page = await open({ waits: false });
+    paints.push(await until(() => page.evaluate(() => performance.getEntriesByName("first-contentful-paint")[0]?.startTime), "the first paint"));
+    await page.context().close();
+  }
+  const told = `after ${paints.map(Math.round).join(", ")} ms`;
+  assert.ok(Math.min(...paints) < kPaintMs, told);
+  return told;
 }
 
+/**
+ * What the main thread computes in the usual animation frame that draws, WebGL calls included: Chromium's own count of
+ * the thread's time (`tdur` in its trace). The time in which a busy machine runs others, or a processor draws in place of a
+ * GPU, is not in it.
+ */
 async function work({ open }) {
-  // Small, so that a processor that draws lets some frames through; the script has the same work.
-  const page = await open({ viewport: { width: 640, height: 420 } });
+  // Small, so that a processor that draws lets frames through; the script has the same work.
+  const page = await open({ viewport: { width: 640, height: 360 } });
+  const goals = await crowd(page);
+  const drawn = () => page.evaluate(() => window.posed.drawn);
+  let moved = 0;
+  // A goal that wanders keeps all of it moving.
+  const wander = async (frames) => {
+    const end = (await drawn()) + frames;
+    await until(async () => {
+      await call(page, "goal.set", { id: goals[moved % goals.length], position: [0.3 + 0.1 * Math.sin(moved), 0.1, 1 + 0.01 * (moved % 9)] });
+      moved++;
+      return (await drawn()) >= end;
+    }, "frames", 90_000);
+  };
+  await wander(kWarm);
+  const medians = [];
+  let told = "";
+  // Up to three times: others on the same core make the same script dearer.
+  while (medians.length < 3 && !medians.some((ms) => ms < kWorkMs)) {
+    await page.context().browser().startTracing(page, { categories: ["devtools.timeline"] });
+    const before = await drawn();
+    await wander(kFrames);
+    const count = (await drawn()) - before;
+    const { traceEvents } = JSON.parse(await page.context().browser().stopTracing());
+    // Animation frames with nothing to draw cost next to nothing: the dearest ones drew.
+    const all = traceEvents.filter(({ name, tdur }) => name === "FireAnimationFrame" && tdur !== undefined).map(({ tdur }) => tdur / 1000);
+    const times = all.sort((a, b) => b - a).slice(0, count);
+    assert.ok(times.length >= kFrames * 0.9, `${times.length} frames in the trace`);
+    const at = (share) => times[Math.floor(share * (times.length - 1))];
+    medians.push(at(0.5));
+    told += `median ${at(0.5).toFixed(2)} ms of ${times.length} frames (least ${at(1).toFixed(2)}, 9 of 10 below ${at(0.1).toFixed(2)}) `;
+  }
+  await page.context().close();
+  assert.ok(medians.some((ms) => ms < kWorkMs), told);
+  return told.trim();
+}
+
+/** Five figures and forty goals. */
+async function crowd(page) {
   const { revision: begun } = await call(page, "scene.new", { template: "standing", force: true });
+  const figures = Array.from({ length: kFigures - 1 }, (_, i) => ({ method: "figure.set", params: { id: `body${i + 1}`, template: "tempus", stature: 1.66 + i * 0.06 } }));
+  await call(page, "edit.apply", { label: "a crowd", edits: figures });
   const segments = ["left_hand", "right_hand", "head", "upper_torso", "left_lower_arm", "right_lower_arm", "left_upper_leg", "right_upper_leg"];
-  const { results } = await call(page, "edit.apply", {
-    label: "a crowd",
-    edits: Array.from({ length: kFigures }, (_, i) => (i === 0 ? [] : [{ method: "figure.set", params: { id: `body${i}`, template: "tempus", stature: 1.6 + i * 0.06 } }])).flat(),
-  });
-  assert.equal(results.length, kFigures - 1);
   const goals = Array.from({ length: kFigures * kGoalsEach }, (_, n) => {
     const [i, segment] = [Math.floor(n / kGoalsEach), segments[n % kGoalsEach]];
     return { method: "goal.set", params: { id: `g${n}`, figure: i === 0 ? "body" : `body${i}`, at: segment, position: [0.3, (i - 2) * 0.9, 0.7 + (n % kGoalsEach) * 0.1] } };
@@ -51,26 +104,7 @@ async function work({ open }) {
   const { revision } = await call(page, "edit.apply", { label: "goals", edits: goals });
   await until(async () => (await state(page)).poseRevision >= revision && revision > begun, "the crowd's pose");
   await page.keyboard.press("f");
-  // A goal that wanders keeps all of it moving. Judged by the quickest frame that drew, told with the medians: what a
-  // busy machine does between two looks at the clock only adds, and is not the page's work.
-  let moved = 0;
-  const [medians, quickest] = [[], []];
-  for (let window = 0; window < 3; window++) {
-    const before = (await page.evaluate(() => window.posed.work)).length;
-    await until(async () => {
-      await call(page, "goal.set", { id: `g${moved % goals.length}`, position: [0.3 + 0.1 * Math.sin(moved), 0.1, 1 + 0.01 * (moved % 9)] });
-      moved++;
-      const now = (await page.evaluate(() => window.posed.work)).length;
-      return now - before >= kWindow || now < before;
-    }, "frames", 90_000);
-    const last = (await page.evaluate(() => window.posed.work)).slice(-kWindow).sort((a, b) => a - b);
-    medians.push(last[kWindow / 2]);
-    quickest.push(last[0]);
-  }
-  const best = Math.min(...quickest);
-  const told = `${best.toFixed(2)} ms in the quickest frame, medians of ${kWindow} frames ${medians.map((ms) => ms.toFixed(2)).join(" ")}`;
-  assert.ok(best < kWorkMs, told);
-  return told;
+  return goals.map(({ params }) => params.id);
 }
 
 async function frames({ page }) {

@@ -155,8 +155,10 @@ async function carriesView({ page, open }) {
   const other = await open({ url: address, waits: true });
   await until(async () => (await rectOf(other, "perspective")).width > 600, "the maximised view");
   const pose = (await figurePose(page))[3].slice(0, 3);
-  const [a, b] = [await project(page, "perspective", pose), await project(other, "perspective", pose)];
-  assert.ok(Math.hypot(a.x - b.x, a.y - b.y) < 3, "both look from the same place");
+  await until(async () => {
+    const [a, b] = [await project(page, "perspective", pose), await project(other, "perspective", pose)];
+    return Math.hypot(a.x - b.x, a.y - b.y) < 3;
+  }, "both to look from the same place");
   assert.ok(apart(await figurePose(page), await figurePose(other)) < 1e-6);
   await page.keyboard.press("4");
 }

@@ -47,6 +47,7 @@ export interface FigureReply {
   id: string;
   entity_revision: number;
   document: FigureDocument;
+  q_layout?: Array<{ joint: string; type: JointDocument["type"]; at: number; size: number }>;
 }
 
 export type At = string | { segment: string; point: Vec3 };
@@ -85,9 +86,8 @@ export interface GoalDocument {
 }
 
 export interface Filter {
-  min_cutoff?: number;
-  beta?: number;
-  [field: string]: unknown;
+  one_euro?: { min_cutoff_hz?: number; beta?: number; d_cutoff_hz?: number };
+  predict_ms?: number;
 }
 
 export interface BindingDocument {
@@ -201,6 +201,32 @@ export interface TrackerInfo {
   frames?: number;
   bad_bytes?: number;
   sensors: string[];
+  held_by?: string;
+  /** The one that counts now; absent: none. */
+  calibration?: string;
+  calibrations?: Calibration[];
+}
+
+/** Where a tracker stands, as it was measured. */
+export interface Calibration {
+  tracker: string;
+  name: string;
+  author?: string;
+  residual_m: number;
+  points: Array<{ source: Vec3; world: Vec3; residual_m: number }>;
+  /** By station, "1". */
+  sensors: Record<string, { tip?: { offset: Vec3; residual_m: number; samples: number }; boresight?: Quat }>;
+}
+
+/** A sensor's tip, held still and measured. */
+export interface TouchReply {
+  sensor: string;
+  samples: number;
+  position: Vec3;
+  quat_xyzw: Quat;
+  source: Vec3;
+  spread_m: number;
+  off_m?: number;
 }
 
 export interface HelloReply {

@@ -2,9 +2,11 @@
 const kWindowMs = 1000;
 
 export class Meter {
+  total = 0;
   private times: number[] = [];
 
   count(nowMs: number): void {
+    this.total++;
     this.times.push(nowMs);
     this.forget(nowMs);
   }

@@ -130,6 +130,11 @@ export class Model {
     return this.hello?.role !== "viewer" && this.hello?.role !== "none";
   }
 
+  /** Trackers are for operators: settings and calibrations outlast the scene. */
+  get mayOperate(): boolean {
+    return this.mayEdit && this.hello?.role !== "editor";
+  }
+
   setConnection(state: ConnectionState): void {
     this.connection = state;
     this.touch("connection");

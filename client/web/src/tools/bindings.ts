@@ -34,7 +34,7 @@ export function targetOf({ to }: BindingDocument): Target | null {
 export function targetsOf(model: Model): Target[] {
   const { goals, objects } = model.scene.document;
   return [
-    ...Object.entries(goals).filter(([, { position, relative_to = "world" }]) => position && relative_to === "world").map(([goal]) => ({ goal })).sort((a, b) => (a.goal < b.goal ? -1 : 1)),
+    ...Object.entries(goals).filter(([, { position, orientation, relative_to = "world" }]) => (position || orientation) && relative_to === "world").map(([goal]) => ({ goal })).sort((a, b) => (a.goal < b.goal ? -1 : 1)),
     ...Object.keys(objects).map((object) => ({ object })),
     ...(leadsMore(model) ? [{ camera: "main" }] : []),
     ...(leadsMore(model) && model.selectedSegment ? jointOf(model, model.selectedSegment.figure, model.selectedSegment.segment) : []),
@@ -50,15 +50,25 @@ export function bindingsOf(model: Model, sensor: string): Array<[string, Binding
   return Object.entries(model.scene.document.bindings).filter(([, binding]) => binding.sensor === sensor).sort(([a], [b]) => (a < b ? -1 : 1));
 }
 
-export function axesOf({ axes, to }: BindingDocument): string[] {
-  return axes ?? (to.goal === undefined ? ["x", "y", "z", "rx", "ry", "rz"] : ["x", "y", "z"]);
+const kMoves = ["x", "y", "z"];
+const kTurns = ["rx", "ry", "rz"];
+
+/** All that what it leads has. */
+export function axesThere(model: Model, { to }: BindingDocument): string[] {
+  if (to.joint !== undefined) return kTurns;
+  const goal = to.goal === undefined ? undefined : model.scene.document.goals[to.goal];
+  if (goal) return [...(goal.position ? kMoves : []), ...(goal.orientation ? kTurns : [])];
+  return [...kMoves, ...kTurns];
+}
+
+export function axesOf(model: Model, binding: BindingDocument): string[] {
+  return binding.axes ?? axesThere(model, binding);
 }
 
 /** What is bound already changes its sensor; else a new binding is made. */
 export function bindTo(model: Model, requests: Requests, sensor: string, target: Target): void {
   const same = Object.entries(model.scene.document.bindings).find(([, binding]) => targetKey(targetOf(binding) ?? { goal: "" }) === targetKey(target));
-  const axes = "goal" in target ? { axes: ["x", "y", "z"] } : "joint" in target ? { axes: ["rx", "ry", "rz"] } : {};
-  const id = same?.[0] ?? freeId(model, sensor), binding = { sensor, to: target, mode: "absolute" as const, ...axes };
+  const id = same?.[0] ?? freeId(model, sensor), binding = { sensor, to: target, mode: "absolute" as const };
   if (!("camera" in target)) return requests.bind(id, binding);
   model.rides = { camera: target.camera };
   if (target.camera in model.scene.document.cameras) return requests.bind(id, binding);

@@ -12,6 +12,11 @@ import { poleOf } from "./joints";
 import type { Requests } from "./requests";
 
 const kSnapPixels = 15;
+const kMargin = 0.02;
+const kPostureWeight = 0.5;
+/** Higher than this above the ground nothing stands on it; within this two stand on the same floor. */
+const kOffFloor = 0.3;
+const kSameFloor = 0.1;
 
 export interface Place {
   figure: string;
@@ -84,6 +89,33 @@ export function makeGoalOfKind(model: Model, requests: Requests, figure: string,
   }
   const payload = payloads[kind];
   if (payload) void requests.makeGoal(figure, segment, payload);
+}
+
+/** Balance over what stands on the floor now; a posture as it is now, or towards rest: weak, for others to pull against. */
+export async function makeGoalOfFigure(model: Model, requests: Requests, figure: string, kind: "balance" | "posture" | "rest"): Promise<void> {
+  if (kind === "balance") {
+    const support = standingOn(model, figure);
+    if (support.length > 0) return requests.makeGoal(figure, null, { balance: { support, margin: kMargin } });
+    return model.say("Nothing of the figure is near the floor", "stand it on something first");
+  }
+  if (kind === "rest") return requests.makeGoal(figure, null, { posture: { pose: "rest" }, weight: kPostureWeight });
+  const [pose, reply] = await Promise.all([requests.readPose(figure), requests.readFigure(figure)]);
+  if (!pose || !reply?.q_layout) return;
+  const bends = reply.q_layout.filter(({ type, size }) => type !== "free" && size > 0);
+  const joints = Object.fromEntries(bends.map(({ joint, at, size }) => [joint, size === 1 ? pose.q[at]! : pose.q.slice(at, at + size)]));
+  return requests.makeGoal(figure, null, { posture: { joints }, weight: kPostureWeight });
+}
+
+/** The ends of limbs that are about as low as the lowest one. */
+function standingOn(model: Model, figure: string): string[] {
+  const segments = model.figures.get(figure)?.segments ?? [];
+  const parents = new Set(segments.map(({ parent }) => parent));
+  const ends = segments.flatMap(({ name }) => {
+    const world = parents.has(name) ? null : worldOf(model, figure, name);
+    return world ? [{ name, z: world[2] }] : [];
+  });
+  const lowest = Math.min(...ends.map(({ z }) => z));
+  return lowest > kOffFloor ? [] : ends.filter(({ z }) => z < lowest + kSameFloor).map(({ name }) => name);
 }
 
 export function touchPoint(model: Model, figure: string, segment: string): Vec3 | null {

@@ -1,6 +1,6 @@
 // What the user's hands ask of the daemon. Every refusal becomes a toast with the daemon's own hint.
 import { ConnectionLost, RpcError } from "../protocol/rpc";
-import type { At, BindingDocument, EditReply, GoalDocument, JointReply, PinDocument, Quat, Vec3 } from "../protocol/types";
+import type { At, BindingDocument, EditReply, FigureReply, GoalDocument, JointReply, PinDocument, Quat, Vec3 } from "../protocol/types";
 import type { Session } from "../session";
 import { movedTo, turnedTo, type GoalFields } from "../state/goals";
 import type { Model } from "../state/model";
@@ -79,8 +79,9 @@ export class Requests {
     void this.call("goal.release", { id }).catch(() => {});
   }
 
-  async makeGoal(figure: string, at: At, payload: Partial<GoalDocument>): Promise<void> {
-    const reply = await this.edit<EditReply>("goal.set", { figure, at, ...payload });
+  /** `at`: null for goals of the whole figure. */
+  async makeGoal(figure: string, at: At | null, payload: Partial<GoalDocument>): Promise<void> {
+    const reply = await this.edit<EditReply>("goal.set", { figure, ...(at === null ? {} : { at }), ...payload });
     if (reply?.id) this.model.select(reply.id);
   }
 
@@ -133,6 +134,22 @@ export class Requests {
 
   readPose(figure: string): Promise<{ q: number[]; world_from_segment: number[][] } | undefined> {
     return this.ask("pose.get", { figure });
+  }
+
+  /** What is asked of a tracker: no edit, so it neither waits for a lost daemon nor is undone. */
+  async tracker<T>(method: string, params: object): Promise<T | undefined> {
+    const reply = await this.ask<T>(method, params);
+    await this.session()?.fetchTrackers().catch(() => {});
+    return reply;
+  }
+
+  /** The same without a word where it fails: what keeps a hold alive. */
+  keepTracker(tracker: string): void {
+    void this.call("tracker.grab", { tracker }).catch(() => {});
+  }
+
+  readFigure(figure: string): Promise<FigureReply | undefined> {
+    return this.ask("figure.get", { id: figure });
   }
 
   private async back(method: string, done: string, step: number | undefined): Promise<void> {

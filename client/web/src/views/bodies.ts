@@ -35,7 +35,7 @@ export interface Detail {
 }
 
 export const fine: Detail = { around: 32, along: 20 };
-export const plain: Detail = { around: 14, along: 9 };
+export const plain: Detail = { around: 10, along: 7 };
 
 export class Bodies<K> {
   readonly group = new Group();

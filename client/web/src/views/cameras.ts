@@ -84,6 +84,12 @@ export class Cameras {
     this.version++;
   }
 
+  /** Where the perspective view is led by hand, as a camera of the scene. */
+  get here(): { position: Vec3; quat_xyzw: Quat } {
+    const { x, y, z, w } = this.eye.quaternion.clone().multiply(cameraFromFrame.clone().invert());
+    return { position: vec(this.eye.position), quat_xyzw: [x, y, z, w] };
+  }
+
   get state(): CameraState {
     const { target } = this.controls.perspective;
     return { focus: vec(this.focus), zoom: this.ortho.front.zoom, eye: vec(this.eye.position), target: vec(target) };

@@ -19,6 +19,15 @@ export function drawGoalShape(lines: FatLines, goal: GoalDocument, frame: Transf
   if (goal.aim?.direction) drawArrow(lines, target, direction(goal.aim.direction), 0.2, color);
 }
 
+/** What a figure stands on, and the plumb line from its centre of mass to the floor. */
+export function drawSupport(lines: FatLines, hull: readonly Vec3[] | null, centre: Vector3, color: number): void {
+  if (!hull) return;
+  // A little above the floor, or the floor would swallow it.
+  const corners = hull.map(([x, y, z]) => new Vector3(x, y, z + 0.002));
+  corners.forEach((corner, i) => lines.add(corner, corners[(i + 1) % corners.length]!, color));
+  if (corners[0]) lines.add(centre, new Vector3(centre.x, centre.y, corners[0].z), color);
+}
+
 export function drawAxes(lines: FatLines, at: Vector3, turn: Quaternion, length: number): void {
   for (const [axis, color] of Object.entries(axisColors)) {
     const tip = new Vector3(axis === "x" ? length : 0, axis === "y" ? length : 0, axis === "z" ? length : 0);

@@ -17,8 +17,9 @@ import {
 } from "three";
 import type { Quat } from "../protocol/types";
 import type { Model } from "../state/model";
+import { supportHull } from "../state/support";
 import { FatLines } from "./fat_lines";
-import { drawGoalShape } from "./goal_shapes";
+import { drawGoalShape, drawSupport } from "./goal_shapes";
 import type { Palette } from "./palette";
 import { metresPerPixel, type PaneRect } from "./projection";
 
@@ -69,6 +70,7 @@ export class GoalView {
       const lines = strong ? this.thick : this.thin;
       if (touch) lines.add(target, touch, color);
       drawGoalShape(lines, goal, model.goalFrame(goal), target, color, strong);
+      if (goal.balance) drawSupport(lines, supportHull(model, goal), touch ?? target, color);
       this.marks.push({ target, touch, turn, color, rim: strong ? palette.outline : color });
     }
     this.thin.end();

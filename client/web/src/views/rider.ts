@@ -1,4 +1,5 @@
 // Who leads the perspective camera: a figure's eyes, or a camera of the scene as the daemon streams it.
+import { eyesOf } from "../state/eyes";
 import type { Model } from "../state/model";
 import { apply, quatOf } from "../state/place";
 import type { Rider } from "./cameras";
@@ -15,9 +16,4 @@ export function riderOf(model: Model): Rider | null {
   if (!site || !head) return null;
   // A little before the eyes, so that the head is not looked at from inside.
   return { position: apply(head, [site.point[0] + 0.02, site.point[1], site.point[2]]), quat_xyzw: quatOf(head), fov_y: kEyesFieldOfView };
-}
-
-export function eyesOf(model: Model, figure: string) {
-  const sites = model.figures.get(figure)?.sites ?? {};
-  return Object.entries(sites).find(([name]) => name.endsWith("/eyes"))?.[1] ?? null;
 }

@@ -4,7 +4,6 @@ import {
   Color,
   DirectionalLight,
   Float32BufferAttribute,
-  Group,
   HemisphereLight,
   LineBasicMaterial,
   LineSegments,
@@ -30,14 +29,15 @@ export class Stage {
   private readonly fill = new DirectionalLight(0xbfd4ff, 0.5);
   private readonly shadow = new ShadowMaterial({ depthWrite: false });
   private readonly floor = new Mesh(new PlaneGeometry(12, 12), this.shadow);
-  private grids: Record<ViewName, Group> | null = null;
+  private grids: Record<ViewName, LineSegments> | null = null;
   private drawnFor: Palette | null = null;
 
-  constructor() {
+  /** `shadows`: pixels across the map of shadows. */
+  constructor(shadows: number) {
     this.scene.add(new HemisphereLight(0xffffff, 0xb0aca8, 2.1));
     for (const light of [this.sun, this.key, this.fill]) this.scene.add(light, light.target);
     this.sun.castShadow = true;
-    this.sun.shadow.mapSize.set(1024, 1024);
+    this.sun.shadow.mapSize.set(shadows, shadows);
     this.sun.shadow.bias = -0.0004;
     this.sun.shadow.normalBias = 0.01;
     this.sun.shadow.radius = 5;
@@ -49,10 +49,9 @@ export class Stage {
   dress(palette: Palette): void {
     if (this.drawnFor === palette) return;
     this.drawnFor = palette;
-    if (this.grids) for (const group of new Set(Object.values(this.grids))) discard(group);
-    const ground = grid(0, 1, palette);
+    if (this.grids) for (const drawn of new Set(Object.values(this.grids))) discard(drawn);
+    const ground = drawnLines([...grid(0, 1, palette), ...axes()]);
     this.grids = { top: ground, perspective: ground, front: wall(1, palette), side: wall(0, palette) };
-    ground.add(axes());
     this.scene.add(ground, this.grids.front, this.grids.side);
     this.shadow.opacity = palette.shadow;
   }
@@ -86,17 +85,26 @@ export class Stage {
   }
 }
 
-/** Lines that fade into the background away from the origin. */
-function lines(points: number[], color: number, background: number): LineSegments {
+/** Points two by two, and the colour that fades into the background's away from the origin. */
+interface Lines {
+  points: number[];
+  color: number;
+  background: number;
+}
+
+/** All of them in one draw call: a frame draws them four times. */
+function drawnLines(all: readonly Lines[]): LineSegments {
   const colors: number[] = [];
-  const [near, far, mixed] = [new Color(color), new Color(background), new Color()];
-  for (let i = 0; i < points.length; i += 3) {
-    const away = Math.hypot(points[i] ?? 0, points[i + 1] ?? 0, points[i + 2] ?? 0) / kFade;
-    mixed.copy(near).lerp(far, Math.min(1, away ** 2));
-    colors.push(mixed.r, mixed.g, mixed.b);
+  for (const { points, color, background } of all) {
+    const [near, far, mixed] = [new Color(color), new Color(background), new Color()];
+    for (let i = 0; i < points.length; i += 3) {
+      const away = Math.hypot(points[i] ?? 0, points[i + 1] ?? 0, points[i + 2] ?? 0) / kFade;
+      mixed.copy(near).lerp(far, Math.min(1, away ** 2));
+      colors.push(mixed.r, mixed.g, mixed.b);
+    }
   }
   const geometry = new BufferGeometry();
-  geometry.setAttribute("position", new Float32BufferAttribute(points, 3));
+  geometry.setAttribute("position", new Float32BufferAttribute(all.flatMap(({ points }) => points), 3));
   geometry.setAttribute("color", new Float32BufferAttribute(colors, 3));
   const drawn = new LineSegments(geometry, new LineBasicMaterial({ vertexColors: true, depthWrite: false }));
   drawn.renderOrder = -2;
@@ -105,7 +113,7 @@ function lines(points: number[], color: number, background: number): LineSegment
 }
 
 /** A grid in the plane of two axes, through the origin, in pieces so that it can fade. */
-function grid(a: number, b: number, palette: Palette): Group {
+function grid(a: number, b: number, palette: Palette): Lines[] {
   const fine: number[] = [];
   const coarse: number[] = [];
   for (let i = -kExtent / kFine; i <= kExtent / kFine; i++) {
@@ -121,40 +129,31 @@ function grid(a: number, b: number, palette: Palette): Group {
       }
     }
   }
-  return new Group().add(lines(fine, palette.gridFine, palette.background), lines(coarse, palette.gridCoarse, palette.background));
+  const { background } = palette;
+  return [{ points: fine, color: palette.gridFine, background }, { points: coarse, color: palette.gridCoarse, background }];
 }
 
 /** An upright grid far behind the figure, and the floor seen edge on. */
-function wall(across: 0 | 1, palette: Palette): Group {
-  const upright = grid(across, 2, palette);
+function wall(across: 0 | 1, palette: Palette): LineSegments {
   const ends: number[] = [];
   for (const end of [-40, 40]) {
     const point = [0, 0, 0];
     point[across] = end;
     ends.push(...point);
   }
-  upright.add(lines(ends, palette.floorLine, palette.floorLine));
+  const upright = drawnLines([...grid(across, 2, palette), { points: ends, color: palette.floorLine, background: palette.floorLine }]);
   // Drawn first and without depth, it lies behind everything wherever it stands.
-  upright.traverse((part) => {
-    if (part instanceof LineSegments) (part.material as LineBasicMaterial).depthTest = false;
-  });
+  (upright.material as LineBasicMaterial).depthTest = false;
   return upright;
 }
 
-function axes(): Group {
-  const length = 0.25;
-  return new Group().add(
-    lines([0, 0, 0, length, 0, 0], axisColors.x, axisColors.x),
-    lines([0, 0, 0, 0, length, 0], axisColors.y, axisColors.y),
-    lines([0, 0, 0, 0, 0, length], axisColors.z, axisColors.z),
-  );
+function axes(): Lines[] {
+  const tips = { x: [0.25, 0, 0], y: [0, 0.25, 0], z: [0, 0, 0.25] };
+  return (["x", "y", "z"] as const).map((axis) => ({ points: [0, 0, 0, ...tips[axis]], color: axisColors[axis], background: axisColors[axis] }));
 }
 
-function discard(group: Group): void {
-  group.removeFromParent();
-  group.traverse((part) => {
-    if (!(part instanceof LineSegments)) return;
-    part.geometry.dispose();
-    (part.material as LineBasicMaterial).dispose();
-  });
+function discard(drawn: LineSegments): void {
+  drawn.removeFromParent();
+  drawn.geometry.dispose();
+  (drawn.material as LineBasicMaterial).dispose();
 }

@@ -34,7 +34,7 @@ export class Views {
   private readonly frames = new FrameView();
   private readonly limits = new LimitView();
   private readonly sensors = new SensorView();
-  private readonly stage = new Stage();
+  private readonly stage: Stage;
   private readonly renderer: WebGLRenderer;
   private readonly labels: Record<ViewName, Labels>;
   private palette: Palette = palettes.dark;
@@ -45,6 +45,7 @@ export class Views {
   constructor(private readonly area: HTMLElement) {
     const plainly = drawsPlainly(location.search);
     const detail = plainly ? plain : fine;
+    this.stage = new Stage(plainly ? 512 : 1024);
     this.figures = new FigureView(detail);
     this.objects = new ObjectView(detail);
     this.ghosts = new GhostView(detail);

@@ -92,6 +92,42 @@ TEST(LibertyOnSerial, WhatIsAskedOfTheDeviceIsToldIt) {
   });
 }
 
+// An alignment in the device accumulates with each command: posed adds none, and takes none back.
+TEST(LibertyOnSerial, AnAlignmentThatSomebodyHasMadeInItStays) {
+  PtyTestbed bed(std::make_unique<LibertyEmulator>(1));
+  bed.with<LibertyEmulator>([](LibertyEmulator& device) {
+    device.set_pose(1, {10, 2, 3, 0, 0, 0});
+    device.write("A1,1,0,0,1,1,0,0,0,0\r");  // X where Y was
+    device.write("A1,1,0,0,2,0,0,1,1,0\r");  // one more inch along that
+  });
+  bed.plug();
+  Watched run("liberty", bed);
+  for (int round = 0; round < 2; ++round) {
+    ASSERT_TRUE(run.wait_for_frames(5)) << run.status().message;
+    const Sample sample = run.frames().back().samples[0];
+    EXPECT_NEAR(sample.position.x, (2 - 1) * 0.0254, 1e-6);
+    EXPECT_NEAR(sample.position.y, (10 - 1) * 0.0254, 1e-6) << "its Y is to the right, ours to the left: -(-9)";
+    EXPECT_NEAR(sample.position.z, -3 * 0.0254, 1e-6);
+    bed.with_tracker([](test::TrackerEmulator& device) { device.stop_streaming(); });
+    ASSERT_TRUE(run.wait_for_state(State::silent));
+  }
+}
+
+TEST(FastrakOnSerial, TipAndBoresightOfTheDeviceAreItsOwn) {
+  PtyTestbed bed(std::make_unique<FastrakEmulator>(1));
+  bed.with<FastrakEmulator>([](FastrakEmulator& device) {
+    device.set_pose(1, {10, 0, 0, 90, 0, 0});
+    device.write("UN1,4,0,0\rB1\r");  // four inches along the sensor's X, which points to the source's Y
+  });
+  bed.plug();
+  Watched run("fastrak", bed);
+  ASSERT_TRUE(run.wait_for_frames(5)) << run.status().message;
+  const Sample sample = run.frames().back().samples[0];
+  EXPECT_NEAR(sample.position.x, 0.254, 1e-6);
+  EXPECT_NEAR(sample.position.y, -4 * 0.0254, 1e-6);
+  EXPECT_NEAR(std::abs(sample.rotation.w), 1.0, 1e-6);
+}
+
 TEST(LibertyOnSerial, WhatItHasNotIsRefusedByName) {
   PtyTestbed bed(std::make_unique<LibertyEmulator>(1));
   Watched liberty("liberty", bed), fastrak("fastrak", bed);
@@ -111,9 +147,17 @@ TEST(LibertyOnSerial, WhatItHasNotIsRefusedByName) {
   refused(liberty, sensors, "out_of_range", "/sensors/1");
   sensors.stations = std::vector<int>{};
   refused(liberty, sensors, "out_of_range", "/sensors");
-  Settings filter;
-  filter.attitude_filter = FilterSetting{};
-  refused(fastrak, filter, "not_available", "/attitude_filter");
+  sensors.stations = std::vector<int>{1, 5};
+  refused(fastrak, sensors, "out_of_range", "/sensors/1");
+  Settings follow;
+  follow.hemispheres[1] = kZero;
+  refused(fastrak, follow, "out_of_range", "/hemisphere");
+  EXPECT_TRUE(liberty.configure(follow));
+  EXPECT_EQ(fastrak.configure(rate).error().hint, "it has sensors, hemisphere, position_filter, attitude_filter");
+  const auto viper = std::move(*make_tracker("viper", [] { return Nanoseconds{0}; }));
+  EXPECT_EQ(viper->configure(sensors).error().path, "/sensors");
+  EXPECT_EQ(viper->configure(sensors).error().hint, "it has rate_hz, hemisphere, position_filter, attitude_filter");
+  EXPECT_EQ(viper->configure(rate).error().hint, "30 or 60 or 120 or 240 or 480 or 960 Hz");
   Settings half;
   half.hemispheres[1] = Vec3(NAN, 0, 0);
   refused(liberty, half, "out_of_range", "/hemisphere");
@@ -129,6 +173,68 @@ TEST(FastrakOnSerial, TheStylusButtonIsHeardAndStopsNothing) {
     ASSERT_TRUE(run.wait_for_frame([&](const Frame& frame) { return frame.samples[0].buttons == (down ? 1u : 0u); }));
   }
   EXPECT_TRUE(bed.streaming());
+}
+
+TEST(FastrakOnSerial, WhatIsAskedOfTheDeviceIsToldIt) {
+  for (const auto& [kind, family] :
+       {std::pair{"fastrak", FastrakEmulator::Kind::fastrak}, {"isotrak", FastrakEmulator::Kind::isotrak}}) {
+    PtyTestbed bed(std::make_unique<FastrakEmulator>(2, family));
+    bed.plug();
+    Watched run(kind, bed);
+    ASSERT_TRUE(run.wait_for_stations(2)) << run.status().message;
+    bed.with<FastrakEmulator>(
+        [](FastrakEmulator& device) { EXPECT_EQ(device.filter('x')[0], 0.2) << "what somebody has set in it stays"; });
+    Settings settings;
+    settings.stations = std::vector<int>{2};
+    settings.hemispheres[2] = Vec3(0, 1, 0);
+    settings.position_filter = FilterSetting{};
+    settings.attitude_filter = FilterSetting{true, 0.1, 0.25, 0.75, 0.9};
+    ASSERT_TRUE(run.configure(settings));
+    ASSERT_TRUE(run.wait_for_frame([](const Frame& f) { return f.samples.size() == 1 && f.samples[0].station == 2; }));
+    bed.with<FastrakEmulator>([](FastrakEmulator& device) {
+      EXPECT_FALSE(device.active(1));
+      EXPECT_EQ(device.hemisphere(2), (std::array<double, 3>{0, -1, 0})) << "the source's Y points to the right";
+      EXPECT_EQ(device.filter('x'), (std::array<double, 4>{0, 1, 0, 0}));
+      EXPECT_EQ(device.filter('v'), (std::array<double, 4>{0.1, 0.25, 0.75, 0.9}));
+    });
+    Settings reset;
+    reset.reset = true;
+    ASSERT_TRUE(run.configure(reset));
+    ASSERT_TRUE(run.wait_for_stations(2)) << "those that were on at first";
+    bed.with<FastrakEmulator>([](FastrakEmulator& device) {
+      EXPECT_EQ(device.hemisphere(2), (std::array<double, 3>{1, 0, 0}));
+      EXPECT_EQ(device.filter('v'), (std::array<double, 4>{0, 1, 0, 0}));
+    });
+    EXPECT_EQ(run.status().message, "") << kind;
+  }
+}
+
+TEST(LibertyOnSerial, TheStylusButtonIsHeardAndStopsNothing) {
+  for (const int sensors : {1, 2}) {  // the first fills the line: no room for the distortion, but for the button
+    PtyTestbed bed(std::make_unique<LibertyEmulator>(sensors));
+    bed.with<LibertyEmulator>([](LibertyEmulator& device) { device.write("L1,1\r"); });
+    bed.plug();
+    Watched run("liberty", bed);
+    ASSERT_TRUE(run.wait_for_frames(5)) << run.status().message;
+    for (const bool down : {true, false, true}) {
+      bed.with<LibertyEmulator>([&](LibertyEmulator& device) { device.press_button(1, down); });
+      ASSERT_TRUE(run.wait_for_frame([&](const Frame& frame) { return frame.samples[0].buttons == (down ? 1u : 0u); }));
+    }
+    EXPECT_TRUE(bed.streaming());
+  }
+}
+
+TEST(LibertyOnSerial, TheDistortionIsToldWhereTheLineHasRoom) {
+  PtyTestbed bed(std::make_unique<LibertyEmulator>(1));
+  bed.with<LibertyEmulator>([](LibertyEmulator& device) { device.set_distortion(1, 2); });
+  bed.plug();
+  Watched run("liberty", bed);
+  ASSERT_TRUE(run.wait_for_frames(5)) << run.status().message;
+  EXPECT_EQ(run.frames().back().samples[0].flags & kFlagDistorted, 0u);
+  Settings slow;
+  slow.rate_hz = 120.0;
+  ASSERT_TRUE(run.configure(slow));
+  ASSERT_TRUE(run.wait_for_frame([](const Frame& frame) { return (frame.samples[0].flags & kFlagDistorted) != 0; }));
 }
 
 TEST(FastrakOnSerial, AComplaintIsTold) {

@@ -39,10 +39,12 @@ class SpacemousePortTest : public testing::Test {
   }
 
   HidrawPaths paths() const { return {top_ / "dev", top_ / "class"}; }
-  void describe(const std::string& node, const std::string& id) {
+  void describe(const std::string& node, const std::string& id, const std::string& port = "",
+                const std::string& serial = "") {
     fs::create_directories(top_ / "class" / node / "device");
     std::ofstream(top_ / "class" / node / "device" / "uevent")
-        << "DRIVER=hid-generic\nHID_ID=" << id << "\nHID_NAME=x\n";
+        << "DRIVER=hid-generic\nHID_ID=" << id << "\nHID_NAME=x\nHID_PHYS=" << port << "/input0\nHID_UNIQ=" << serial
+        << "\n";
   }
   void plug(const std::string& node, const std::string& id) {
     const std::string path = top_ / "dev" / node;
@@ -67,7 +69,7 @@ class SpacemousePortTest : public testing::Test {
   }
   std::unique_ptr<Tracker> driver(TimeSource now) {
     return std::make_unique<Driver>(DriverParts{"spacemouse", "spacemouse", 60,
-                                                std::make_unique<SpacemousePort>(std::move(now), paths()), nullptr,
+                                                std::make_unique<SpacemousePort>(std::move(now), "", paths()), nullptr,
                                                 [] { return std::make_unique<SpacemouseSession>("spacemouse"); }});
   }
 
@@ -109,7 +111,7 @@ TEST_F(SpacemousePortTest, OtherDevicesAreLeftAlone) {
   describe("hidraw1", "0003:0000256F:0000C650");  // a mouse without a cap
   describe("hidraw2", "0005:0000054C:000009CC");
   describe("hidraw3", "nonsense");
-  SpacemousePort port([] { return Nanoseconds{0}; }, paths());
+  SpacemousePort port([] { return Nanoseconds{0}; }, "", paths());
   const Opened opened = port.open([] { return false; });
   EXPECT_FALSE(opened.line);
   EXPECT_EQ(opened.state, State::searching);
@@ -121,13 +123,42 @@ TEST_F(SpacemousePortTest, TheInterfaceWithTheCapIsTaken) {
   std::ofstream(top_ / "class/hidraw5/device/report_descriptor", std::ios::binary) << "\x05\x01\x09\x08\xa1\x01";
   describe("hidraw4", "0003:0000256F:0000C652");
   std::ofstream(top_ / "class/hidraw4/device/report_descriptor", std::ios::binary) << "\x05\x01\x09\x06\xa1\x01";
-  SpacemousePort port([] { return Nanoseconds{0}; }, paths());
+  SpacemousePort port([] { return Nanoseconds{0}; }, "", paths());
   EXPECT_TRUE(port.open([] { return false; }).line);
+}
+
+// hidraw lets any number of readers in: two trackers must not both take the first.
+TEST_F(SpacemousePortTest, TwoKeepTheirOwn) {
+  const auto add = [&](const std::string& node, const std::string& port, const std::string& serial) {
+    ::mkfifo((top_ / "dev" / node).c_str(), 0600);
+    describe(node, "0003:0000256F:0000C635", port, serial);
+  };
+  const auto never = [] { return false; };
+  const auto no_time = [] { return Nanoseconds{0}; };
+  add("hidraw0", "usb-0000:00:14.0-1", "");
+  add("hidraw1", "usb-0000:00:14.0-2", "B77");
+  SpacemousePort first(no_time, "", paths()), second(no_time, "", paths()), third(no_time, "", paths());
+  EXPECT_TRUE(first.open(never).line);
+  EXPECT_TRUE(second.open(never).line);
+  const Opened none = third.open(never);
+  EXPECT_FALSE(none.line);
+  EXPECT_NE(none.message.find("/dev/hidraw1 is another tracker's"), std::string::npos) << none.message;
+  // The first is pulled out, and the second comes back under the first one's old name.
+  fs::remove_all(top_ / "class/hidraw0");
+  fs::remove_all(top_ / "class/hidraw1");
+  add("hidraw0", "usb-0000:00:14.0-4", "B77");
+  EXPECT_FALSE(first.open(never).line);
+  EXPECT_TRUE(second.open(never).line);
+  SpacemousePort named(no_time, "B77", paths()), elsewhere(no_time, "usb-0000:00:14.0-9", paths());
+  EXPECT_TRUE(named.open(never).line) << "who asks for it by name gets it";
+  const Opened wrong = elsewhere.open(never);
+  EXPECT_FALSE(wrong.line);
+  EXPECT_NE(wrong.message.find("spacemouse:usb:B77"), std::string::npos) << wrong.message;
 }
 
 TEST_F(SpacemousePortTest, ADescriptionWithoutANodeIsToldOf) {
   describe("hidraw0", "0003:0000256F:0000C635");
-  SpacemousePort port([] { return Nanoseconds{0}; }, paths());
+  SpacemousePort port([] { return Nanoseconds{0}; }, "", paths());
   const Opened opened = port.open([] { return false; });
   EXPECT_FALSE(opened.line);
   EXPECT_EQ(opened.state, State::failed);

@@ -87,6 +87,74 @@ TEST(ViperOnUsb, ARefusalIsTold) {
   EXPECT_EQ(run.status().message, "");
 }
 
+TEST(ViperOnUsb, WhatIsAskedOfTheDeviceIsToldIt) {
+  for (const bool old : {false, true}) {
+    const auto bed = viper(64);
+    ASSERT_TRUE(bed);
+    bed->with<ViperEmulator>([&](ViperEmulator& device) { device.set_old_hemispheres(old); });
+    bed->plug();
+    Watched run("viper");
+    ASSERT_TRUE(run.wait_for_stations(2)) << run.status().message;
+    Settings settings;
+    settings.rate_hz = 120.0;
+    settings.hemispheres[1] = Vec3(0, 1, 0);
+    settings.hemispheres[2] = kZero;
+    settings.position_filter = FilterSetting{};
+    settings.attitude_filter = FilterSetting{true, 0.125, 0.25, 0.75, 0.5};
+    ASSERT_TRUE(run.configure(settings));
+    ASSERT_TRUE(run.wait([&] { return run.last_status().rate_hz == 120; }));
+    bed->with<ViperEmulator>([](ViperEmulator& device) {
+      EXPECT_EQ(device.hemisphere(1), (std::array<double, 3>{0, -1, 0})) << "the source's Y points to the right";
+      EXPECT_EQ(device.hemisphere(2), (std::array<double, 3>{0, 0, 0})) << "it follows";
+      EXPECT_EQ(device.filter(2).level, 0u);
+      EXPECT_EQ(device.filter(1).level, 4u);
+      EXPECT_EQ(device.filter(1).numbers, (std::array<float, 4>{0.125f, 0.25f, 0.75f, 0.5f}));
+    });
+    ASSERT_TRUE(run.wait_for_frames(20));
+    EXPECT_EQ(run.status().message, "");
+    // Counted at the rate that was asked for.
+    const std::vector<Frame> frames = run.frames();
+    const Sample& last = frames.back().samples[0];
+    EXPECT_EQ(last.device_t_ns, Nanoseconds{last.device_count} * 1'000'000'000 / 120);
+    Settings reset;
+    reset.reset = true;
+    ASSERT_TRUE(run.configure(reset));
+    ASSERT_TRUE(run.wait([&] { return run.last_status().rate_hz == 240; }));
+    bed->with<ViperEmulator>([](ViperEmulator& device) {
+      EXPECT_EQ(device.hemisphere(2), (std::array<double, 3>{1, 0, 0}));
+      EXPECT_EQ(device.filter(2).numbers[0], 0.05f) << "medium, as from the factory";
+    });
+  }
+}
+
+TEST(ViperOnUsb, ARefusedSettingIsToldAndTheStreamGoesOn) {
+  const auto bed = viper(64);
+  ASSERT_TRUE(bed);
+  bed->with<ViperEmulator>([](ViperEmulator& device) { device.set_refusing(1); });
+  bed->plug();
+  Watched run("viper");
+  ASSERT_TRUE(run.wait_for_frames(5)) << run.status().message;
+  Settings settings;
+  settings.attitude_filter = FilterSetting{};
+  ASSERT_TRUE(run.configure(settings));
+  ASSERT_TRUE(run.wait_for_message("the tracker refuses attitude_filter: not today"));
+  ASSERT_TRUE(run.wait_for_frames(5));
+  EXPECT_EQ(run.status().state, State::streaming);
+}
+
+TEST(ViperOnUsb, BothButtonsAreHeard) {
+  const auto bed = viper(64);
+  ASSERT_TRUE(bed);
+  bed->plug();
+  Watched run("viper");
+  for (const std::uint32_t held : {1u, 3u, 2u, 0u}) {
+    bed->with<ViperEmulator>([&](ViperEmulator& device) { device.press_buttons(2, held); });
+    ASSERT_TRUE(run.wait_for_frame([&](const Frame& frame) {
+      return frame.samples.size() == 2 && frame.samples[1].buttons == held && frame.samples[0].buttons == 0;
+    }));
+  }
+}
+
 // Its 32 bytes fill a packet of 32: only an empty one tells the device that no more comes.
 TEST(ViperOnUsb, ACommandThatFillsItsPacketsIsEnded) {
   const auto bed = viper(32);

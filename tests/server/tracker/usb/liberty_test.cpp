@@ -24,7 +24,7 @@ class Watched : public test::WatchedTracker {
   explicit Watched(LibertyOptions options = {})
       : WatchedTracker([&](TimeSource now) {
           return std::make_unique<Driver>(DriverParts{options.id, "liberty", 240,
-                                                      std::make_unique<UsbPort>("liberty", std::move(now)), nullptr,
+                                                      std::make_unique<UsbPort>("liberty", "", std::move(now)), nullptr,
                                                       [options] { return std::make_unique<LibertySession>(options); }});
         }) {}
 };
@@ -255,6 +255,23 @@ TEST_F(LibertyOnUsb, GarbageInTheStreamIsCounted) {
   ASSERT_TRUE(run.wait_for_frames(300));  // more than a second: the status comes round
   run.stop();
   EXPECT_EQ(run.status().bad_bytes, 7u);
+}
+
+TEST_F(LibertyOnUsb, TheStylusButtonAndTheDistortionAreHeard) {
+  SET_UP();
+  bed->plug();
+  Watched run;
+  ASSERT_TRUE(run.wait_for_frames(20));
+  bed->with_device([](LibertyEmulator& device) {
+    device.press_button(2, true);
+    device.set_distortion(1, 1);
+  });
+  ASSERT_TRUE(run.wait_for_frame([](const Frame& frame) {
+    return frame.samples.size() == 2 && frame.samples[1].buttons == 1 && frame.samples[0].buttons == 0 &&
+           (frame.samples[0].flags & kFlagDistorted) != 0;
+  }));
+  bed->with_device([](LibertyEmulator& device) { device.press_button(2, false); });
+  ASSERT_TRUE(run.wait_for_frame([](const Frame& frame) { return frame.samples[1].buttons == 0; }));
 }
 
 TEST_F(LibertyOnUsb, AStreamThatDiesIsStartedAnew) {
