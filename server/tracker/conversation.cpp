@@ -54,6 +54,7 @@ void Conversation::run() {
 }
 
 bool Conversation::make_quiet(std::initializer_list<std::string_view> stops) {
+  forgiving_ = true;
   for (const std::string_view stop : stops) {
     if (!write(stop)) return false;
     const auto begun = Steady::now();
@@ -78,7 +79,9 @@ bool Conversation::ask(std::string_view question, const std::function<bool()>& a
       line_.wait(20ms);
       board_.tick();
       hear();
-      if (answered()) return true;
+      if (!answered()) continue;
+      forgiving_ = false;
+      return true;
     }
   }
   return false;
@@ -88,6 +91,7 @@ void Conversation::begin(int highest_station) {
   session_.decoder().expect_up_to(highest_station);
   if (capture_) capture_->begin(session_.decoder(), highest_station);
   begun_ = true;
+  forgiving_ = false;
 }
 
 void Conversation::trouble(std::string message) {
@@ -95,6 +99,7 @@ void Conversation::trouble(std::string message) {
 }
 
 void Conversation::complain(std::string message) {
+  if (forgiving_) return;
   complaint_ = std::move(message);
   board_.set(board_.state(), board_.state() == State::streaming ? complaint_ : all_trouble());
 }

@@ -32,7 +32,8 @@ class Conversation {
   bool alive() const { return !stopping_ && line_.trouble() == Line::Trouble::none; }
   bool write(std::string_view bytes) { return line_.write(bytes); }
   // Sends `stops` one after the other until the device is quiet; what it says meanwhile is thrown away. A program that
-  // crashed leaves a device streaming, with its buffer full and perhaps half a command typed.
+  // crashed leaves a device streaming, with its buffer full and perhaps half a command typed. A slow one complains of
+  // that later: nothing is made of complaints before the first answer to a question.
   bool make_quiet(std::initializer_list<std::string_view> stops);
   // Sends `question` up to three times until `answered`; decodes meanwhile.
   bool ask(std::string_view question, const std::function<bool()>& answered);
@@ -57,6 +58,7 @@ class Conversation {
   const std::atomic<bool>& stopping_;
   std::uint64_t heeded_ = 0;  // of the preferences: that the last set-up knew
   bool begun_ = false;        // since the last set-up began
+  bool forgiving_ = false;    // complaints are of what stood half typed
   std::string trouble_;
   std::string complaint_;
 };

@@ -144,6 +144,8 @@ void FastrakEmulator::set_list(const std::string& line, const Arguments& argumen
 void FastrakEmulator::answer(int station, char letter, const std::string& text) {
   Bytes line;
   put_text(line, "2" + std::string(1, station ? static_cast<char>('0' + station) : ' ') + letter + text + "\r\n");
+  if (slow_ && letter == 'E') return complaints_.push_back({std::move(line), false});
+  for (Output& late : std::exchange(complaints_, {})) output_.push_back(std::move(late));
   output_.push_back({std::move(line), false});
 }
 

@@ -36,6 +36,7 @@ class FastrakEmulator final : public TrackerEmulator {
   void set_pose(int station, SourcePose pose) override { sensors_[station].pose = pose; }
   void set_motion(Motion motion) override { motion_ = std::move(motion); }
   void set_error_letter(int station, char letter) override { sensors_[station].letter = letter; }
+  void set_slow_to_complain() { slow_ = true; }  // its complaint comes with its next answer
   void stop_streaming() override { continuous_ = false; }
   void press_button(bool down);  // of the stylus, on station 1
 
@@ -78,6 +79,8 @@ class FastrakEmulator final : public TrackerEmulator {
   std::string line_;
   std::vector<std::string> commands_;
   std::deque<Output> output_;
+  bool slow_ = false;
+  std::deque<Output> complaints_;  // that it is slow with
   std::uint32_t count_ = 0;
   int turn_ = 0;  // the station that measured last
   bool continuous_ = false, binary_ = false, centimetres_ = false, suspended_ = false;

@@ -250,6 +250,17 @@ TEST(FastrakOnSerial, AComplaintIsTold) {
   EXPECT_EQ(run.status().bad_bytes, 0u);
 }
 
+// On a busy machine its complaint of the CR that wakes it came after the silence, and stood in the status for good.
+TEST(FastrakOnSerial, AComplaintOfWhatStoodHalfTypedIsForgottenThoughItComesLate) {
+  auto slow = std::make_unique<FastrakEmulator>(1);
+  slow->set_slow_to_complain();
+  PtyTestbed bed(std::move(slow));
+  bed.plug();
+  Watched run("fastrak", bed);
+  ASSERT_TRUE(run.wait_for_frames(5)) << run.status().message;
+  EXPECT_EQ(run.status().message, "");
+}
+
 TEST(FastrakOnSerial, ReceiversThatAreSwitchedOffAreLeftOff) {
   PtyTestbed bed(std::make_unique<FastrakEmulator>(4));
   bed.with_tracker([](test::TrackerEmulator& device) { device.write("l2,0\rl4,0\r"); });
