@@ -103,6 +103,14 @@ void Link::note(std::string text, bool bad) {
   now_.note = {std::move(text), bad};
 }
 
+Status Link::subscribe_to(proto::Stream stream) {
+  proto::StreamSubscribe wish;
+  wish.stream = stream;
+  wish.max_rate_hz = max_rate_hz_;
+  wish.credit = kCredit;
+  return client_.subscribe(wish);
+}
+
 Status Link::subscribe() {
   proto::StreamSubscribe pose;
   pose.fields = {"world_from_segment", "goals"};
@@ -110,6 +118,9 @@ Status Link::subscribe() {
   pose.credit = kCredit;
   if (!figure_.empty()) pose.figures = {figure_};
   if (Status done = client_.subscribe(pose); !done) return done;
+  for (const auto stream : {proto::Stream::tracker, proto::Stream::camera}) {
+    if (Status done = subscribe_to(stream); !done) return done;
+  }
   // The scene's stream is the bell that tells when to ask for its entities.
   proto::StreamSubscribe scene;
   scene.stream = proto::Stream::scene;
@@ -141,6 +152,18 @@ void Link::do_edits() {
 void Link::take(const proto::Incoming& frame) {
   if (frame.stream == proto::Stream::scene) {
     stale_ = true;
+    return;
+  }
+  if (frame.stream == proto::Stream::tracker) {
+    const auto data = proto::decode_message<proto::TrackerData>(frame.data);
+    if (!data) return note(data.error().message, true);
+    for (const proto::SensorData& s : data->sensors) now_.sensors[s.sensor] = {s.position, s.rotation};
+    return;
+  }
+  if (frame.stream == proto::Stream::camera) {
+    auto data = proto::decode_message<proto::CameraData>(frame.data);
+    if (!data) return note(data.error().message, true);
+    now_.cameras = std::move(data->cameras);
     return;
   }
   auto pose = proto::decode_message<proto::PoseData>(frame.data);
@@ -178,6 +201,8 @@ Status Link::follow() {
     // It may be another daemon: nothing that we know need hold.
     stale_ = first_frame_ = true;
     now_.entities = std::make_shared<Entities>();
+    now_.sensors.clear();
+    now_.cameras.clear();
     clock_offset_ = client::clock_offset(client_);
     note("the connection was lost, and is there again", false);
   }

@@ -40,7 +40,8 @@ class Link {
 
   void run();
   Status subscribe();
-  Status follow();  // one step; what is wrong with the connection
+  Status subscribe_to(proto::Stream stream);  // newest wins, as often as poses come
+  Status follow();                            // one step; what is wrong with the connection
   void do_edits();
   void take(const proto::Incoming& frame);
   void tell(const Station& now);

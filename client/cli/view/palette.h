@@ -38,6 +38,7 @@ inline int color_of(GoalState state) {
 
 inline constexpr int kFloor = 238, kFloorLine = 242;
 inline constexpr std::array kAxes{167, 71, 68};  // X, Y, Z
+inline constexpr int kPin = 179, kSensor = 183, kCamera = 116;
 inline constexpr Style kFrame{240}, kFrameActive{110}, kTitle{250}, kTitleActive{153, -1, true}, kDim{245}, kPlain{},
     kStrong{-1, -1, true}, kGood{78}, kWarning{214}, kBad{203, -1, true}, kKey{153, -1, true};
 

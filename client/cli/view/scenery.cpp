@@ -1,6 +1,7 @@
 #include "client/cli/view/scenery.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -14,6 +15,8 @@ constexpr double kGridReach = 2.0;       // m
 constexpr double kLeastGridDots = 24.0;  // between two lines of the floor
 constexpr double kApart = 0.03, kApartDots = 2.2;
 constexpr double kStick = 0.02;  // m, radius of a segment that has no shape
+constexpr double kTriad = 0.07;  // m, the axes of a sensor
+constexpr double kCone = 0.18;   // m, how far a camera's edges reach
 
 // One pane, with what all its parts need.
 struct Drawing {
@@ -66,6 +69,26 @@ struct Drawing {
                  [&](double light) { return shaded(tone, least + (1.0 - least) * light); });
   }
 
+  // A sensor by its axes.
+  void triad(const Transform& place) const {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3 axis = i == 0 ? kX : i == 1 ? kY : kZ;
+      line(place.position, place * (kTriad * axis), Layer::mark, kAxes[i], 1);
+    }
+  }
+
+  // A camera by the edges of what it sees, four to three, along its X with Z up.
+  void cone(const proto::CameraFrame& frame) const {
+    const double up = kCone * std::tan(frame.fov_y / 2.0), side = up * 4.0 / 3.0;
+    const std::array corners{Vec3(kCone, side, up), Vec3(kCone, -side, up), Vec3(kCone, -side, -up),
+                             Vec3(kCone, side, -up)};
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Vec3 corner = frame.world_from_camera * corners[i];
+      line(frame.world_from_camera.position, corner, Layer::mark, kCamera, 1);
+      line(corner, frame.world_from_camera * corners[(i + 1) % 4], Layer::mark, kCamera, 1);
+    }
+  }
+
   void objects() {
     for (const Object& object : station.entities->objects)
       shapes(object.shapes, object.world_from_object, Layer::object, Tone::object, 0.2);
@@ -103,6 +126,20 @@ char32_t mark_glyph(bool chosen, bool touch, Glyphs glyphs) {
   return glyphs == Glyphs::blocks ? (chosen ? U'■' : U'□') : (chosen ? U'◆' : U'◇');
 }
 
+// Where the segments that are pinned are held: at their touch points.
+void mark_pins(const Camera& camera, const Station& station, const proto::FigurePose& pose, Glyphs glyphs,
+               std::vector<Mark>& marks) {
+  const auto found = station.entities->figures.find(pose.figure);
+  if (found == station.entities->figures.end()) return;
+  const std::vector<Segment>& segments = found->second.document.segments;
+  if (segments.size() != pose.world_from_segment.size()) return;
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    if (!found->second.entry.pins.contains(segments[i].name)) continue;
+    const auto at = camera.project(pose.world_from_segment[i] * segments[i].touch_point);
+    if (at) marks.push_back({*at, glyphs == Glyphs::ascii ? U'#' : U'▪', Style{kPin}});
+  }
+}
+
 }  // namespace
 
 const proto::GoalResult* Entities::goal(const std::string& id) const {
@@ -125,6 +162,7 @@ void draw_scenery(Grid& grid, const Pane& pane, const Station& station, const st
   std::vector<Mark> marks;
   for (const proto::FigurePose& figure : station.pose ? station.pose->figures : std::vector<proto::FigurePose>{}) {
     drawing.figure(figure);
+    mark_pins(pane.camera, station, figure, glyphs, marks);
     for (const proto::GoalFrame& goal : figure.goals) {
       const proto::GoalResult* entity = station.entities->goal(goal.id);
       if (entity != nullptr && !takes_hold(kind_of(entity->goal.payload))) continue;
@@ -138,6 +176,16 @@ void draw_scenery(Grid& grid, const Pane& pane, const Station& station, const st
         if (at) marks.push_back({*at, mark_glyph(is_chosen, touch, glyphs), style});
       }
     }
+  }
+  for (const auto& [sensor, place] : station.sensors) {
+    drawing.triad(place);
+    if (const auto at = pane.camera.project(place.position))
+      marks.push_back({*at, glyphs == Glyphs::ascii ? U'*' : U'✶', Style{kSensor}});
+  }
+  for (const proto::CameraFrame& camera : station.cameras) {
+    drawing.cone(camera);
+    if (const auto at = pane.camera.project(camera.world_from_camera.position))
+      marks.push_back({*at, glyphs == Glyphs::ascii ? U'>' : U'▸', Style{kCamera}});
   }
   canvas.draw(grid, pane.column, pane.row, glyphs);
   // The chosen goal's above the others', and cubes above touch points.

@@ -1,4 +1,4 @@
-// What is drawn of a station in one view: floor, objects, figures, goals. Pure.
+// What is drawn of a station in one view: floor, objects, figures with their pins, goals, sensors, cameras. Pure.
 #pragma once
 
 #include <string>

@@ -30,8 +30,10 @@ struct Note {
 struct Station {
   std::shared_ptr<const proto::PoseData> pose;  // null: none has come yet
   std::shared_ptr<const Entities> entities = std::make_shared<Entities>();
-  std::string lost_why;          // empty: connected
-  double rate_hz = 0.0;          // frames that came in the last second
+  std::map<std::string, Transform> sensors;  // in the world, as they were heard last
+  std::vector<proto::CameraFrame> cameras;   // all that stand somewhere
+  std::string lost_why;                      // empty: connected
+  double rate_hz = 0.0;                      // frames that came in the last second
   std::optional<double> age_ms;  // of the newest frame when it came, from the sample's or the edit's arrival
   std::uint64_t lost = 0;        // frames left out because we were slow
   std::uint64_t edits_done = 0;  // how many of our edits have their answer, and are in `entities`

@@ -71,7 +71,7 @@ Round floor_round(int viewers, Nanoseconds span) {
 void wait_for_stream(client::Client& control) {
   std::string state;
   for (int i = 0; i < 1000; ++i) {
-    const auto list = control.call<proto::TrackerList>(proto::TrackerListRequest{});
+    const auto list = control.call<proto::TrackerListResult>(proto::TrackerList{});
     if (!list) throw std::runtime_error(list.error().message);
     if (!list->trackers.empty() && list->trackers[0].state == "streaming") return;
     std::this_thread::sleep_for(std::chrono::milliseconds(10));

@@ -11,18 +11,21 @@ export const checks = [
   ["axe finds nothing in light", async ({ open }) => accessible(await open({ colorScheme: "light" }))],
   ["the colours are chosen, and stay", theme],
   ["lengths are in millimetres or metres", units],
-  ["a tablet and a phone have all of it, by touch", small],
+  ["a small laptop, a tablet and a phone have all of it, and nothing that is told moves the views", small],
   ["the first steps teach by doing, once", firstSteps],
 ];
 
-async function accessible(page) {
-  await begin(page, "paper/unreachable");
+/** What axe has against the page as it is now: nothing. */
+export async function findsNothing(page, where) {
   // By way of the driver: the page's own policy lets no foreign script in.
   await page.evaluate(await readFile(axe, "utf8"));
-  const look = async (where) => {
-    const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
-    assert.deepEqual(violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html.slice(0, 120)).join(" & ")}`), [], where);
-  };
+  const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
+  assert.deepEqual(violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html.slice(0, 120)).join(" & ")}`), [], where);
+}
+
+async function accessible(page) {
+  await begin(page, "paper/unreachable");
+  const look = (where) => findsNothing(page, where);
   await page.keyboard.press(".");
   await look("goals");
   await page.keyboard.press("]");
@@ -65,7 +68,7 @@ async function units({ page }) {
 }
 
 async function small({ open }) {
-  for (const viewport of [{ width: 820, height: 1100 }, { width: 420, height: 860 }]) {
+  for (const viewport of [{ width: 1180, height: 700 }, { width: 960, height: 580 }, { width: 820, height: 1100 }, { width: 420, height: 860 }]) {
     const page = await open({ viewport });
     assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `${viewport.width}: nothing sticks out`);
     for (const id of ["tab-goals", "tab-together", "help", "tool-goal"]) {
@@ -73,6 +76,10 @@ async function small({ open }) {
       assert.ok(box.x >= 0 && box.x + box.width <= viewport.width && box.y >= 0 && box.y + box.height <= viewport.height, `${id} is on the screen`);
     }
     for (const view of ["top", "front", "side", "perspective"]) assert.ok((await rectOf(page, view)).height > 90, `${view} has room`);
+    // Whatever the meter says, the views stay where they are: a bar that wrapped would move them under a hand.
+    const [meter, before] = [page.getByTestId("meter-age"), await rectOf(page, "front")];
+    await meter.evaluate((age) => (age.firstChild.data = "12345 ms"));
+    assert.deepEqual(await page.evaluate(() => document.querySelector("[data-testid=view-front]").getBoundingClientRect().toJSON()), before);
     await page.context().close();
   }
 }

@@ -1,6 +1,7 @@
 // The simulated tracker: seen, and bound to what it is to lead.
 import assert from "node:assert/strict";
 import { begin, call, distance, project, state, until } from "../browser.mjs";
+import { findsNothing } from "./comfort.mjs";
 import { hand, makeByClick } from "./goals.mjs";
 
 const sensor = "simulated:1";
@@ -60,6 +61,7 @@ async function leads({ page }) {
   await row.getByTestId("binding-scale").blur();
   await until(async () => Object.values((await state(page)).scene.bindings)[0].scale === 0.5, "the scale");
   await smooths(page, row);
+  await findsNothing(page, "a binding's row");
   await row.getByTestId("binding-remove").click();
   await until(async () => Object.keys((await state(page)).scene.bindings).length === 0, "the binding to go");
 }
@@ -193,6 +195,8 @@ async function calibrates({ open, daemonWith, built }) {
     // The tip is 0.12, 0.005, -0.01 m from the sensor: 120.5 mm.
     daemon.act("pivot 1 0.8 0.1 -0.2 0.12 0.005 -0.01");
     await page.getByTestId("calibrate").click();
+    await page.getByTestId("walk").waitFor();
+    await findsNothing(page, "the walk");
     await page.getByTestId("walk-name").fill("monday");
     await page.getByTestId("walk-name").blur();
     await page.getByTestId("walk-tip").click();

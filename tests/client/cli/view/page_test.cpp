@@ -51,6 +51,40 @@ TEST(Page, TheChosenGoalInPlainWords) {
   EXPECT_TRUE(has(text, "left elbow at its limit; 120 mm beyond reach")) << text;
 }
 
+TEST(Page, PinsSensorsAndCamerasAreMarkedInEachView) {
+  const auto marked = [](const Station& station, std::string_view mark) {
+    const std::string text = Picture({200, 60}, station).press(Command::list).text();
+    std::size_t count = 0;
+    for (std::size_t at = 0; (at = text.find(mark, at)) != std::string::npos; at += mark.size()) ++count;
+    return count;
+  };
+  const Station before = test::standing();
+  for (const char* mark : {"▪", "✶", "▸"}) EXPECT_EQ(marked(before, mark), 0u) << mark;
+
+  Station pinned = test::standing();
+  auto entities = std::make_shared<Entities>(*pinned.entities);
+  entities->figures.at("body").entry.pins["trunk"] = {};
+  pinned.entities = entities;
+  EXPECT_EQ(marked(pinned, "▪"), 3u) << "at its touch point; from the side the hand's goal is before it";
+
+  Station tracked = test::standing();
+  tracked.sensors["liberty:1"] = {{0.3, 0.4, 1.0}, quat_identity()};
+  EXPECT_EQ(marked(tracked, "✶"), 4u);
+
+  Station filmed = test::standing();
+  filmed.cameras.push_back({"main", {{0.5, -0.2, 0.8}, quat_identity()}, 0.9});
+  EXPECT_EQ(marked(filmed, "▸"), 4u);
+}
+
+TEST(Page, ASegmentThatIsPinnedInAnotherFigureThanWeKnowIsPassedOver) {
+  Station station = test::standing();
+  auto entities = std::make_shared<Entities>(*station.entities);
+  entities->figures.at("body").entry.pins["trunk"] = {};
+  entities->figures.at("body").document.segments.pop_back();
+  station.entities = entities;
+  EXPECT_FALSE(has(Picture({200, 60}, station).text(), "▪"));
+}
+
 TEST(Page, AListOfGoalsWhereThereIsRoom) {
   EXPECT_TRUE(has(Picture({200, 60}).text(), " Goals "));
   EXPECT_FALSE(has(Picture({80, 24}).text(), " Goals "));

@@ -107,15 +107,13 @@ TEST(TwoOfAKind, OneThatIsAskedForByNameIsNotTakenByAnother) {
 
 // A serial number goes along with the device; the other one is known by its port alone.
 TEST(TwoOfAKind, AtAnotherPortItIsKnownByItsSerialNumber) {
-  auto bed = liberty(1, 10, "A17");
-  ASSERT_TRUE(bed);
+  const auto bed = liberty(1, 10, "A17"), moved = liberty(3, 30, "A17");  // they outlive the driver
+  ASSERT_TRUE(bed && moved);
   bed->plug();
   Watched run("liberty:usb:A17");
   ASSERT_TRUE(hears(run, 10)) << run.status().message;
   bed->unplug();
   ASSERT_TRUE(run.wait_for_state(State::searching));
-  const auto moved = liberty(3, 30, "A17");
-  ASSERT_TRUE(moved);
   moved->plug();
   EXPECT_TRUE(hears(run, 30)) << run.status().message;
 }
