@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <regex>
 
 #include "running_daemon.h"
 
@@ -225,7 +226,10 @@ TEST(Daemon, WhatReachTreeDoesNotDoIsKeptAndSaid) {
   ASSERT_TRUE(client.call("scene.save", R"({"name":"kinds"})"));
   ASSERT_TRUE(client.call("scene.new", R"({"template":"empty"})"));
   ASSERT_TRUE(client.call("scene.open", R"({"name":"kinds"})"));
-  EXPECT_EQ(*client.call("goal.list"), *goals);
+  const auto said = [](const std::string& list) {  // what comes anew has another revision
+    return std::regex_replace(list, std::regex(R"("entity_revision":\d+)"), "");
+  };
+  EXPECT_EQ(said(*client.call("goal.list")), said(*goals));
   const auto figure = client.call<proto::FigureResult>(proto::FigureGet{"body"});
   ASSERT_TRUE(figure);
   EXPECT_TRUE(figure->entry.pins.contains("left_foot"));

@@ -26,7 +26,7 @@ TEST_F(BindingEdits, OnlyTheNamedFieldsChangeAndNullRestores) {
   first.mode = Binding::Mode::relative;
   first.scale = 2.0;
   first.label = std::string("wand");
-  ASSERT_TRUE(scene.set_binding(first, {}));
+  expect_edited("b1", 1, [&] { return scene.set_binding(first, {}); });
   BindingEdit retarget;
   retarget.id = "b1";
   retarget.to = BindingTarget{"g2", "", "", "", ""};

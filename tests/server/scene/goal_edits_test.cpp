@@ -32,7 +32,7 @@ TEST_F(GoalEdits, OnlyTheNamedFieldsChange) {
   first.enabled = false;
   first.label = std::string("reach");
   first.user = std::string("[1]");
-  ASSERT_TRUE(scene.set_goal(first, {}));
+  expect_edited("g1", 1, [&] { return scene.set_goal(first, {}); });
   GoalEdit move;
   move.id = "g1";
   move.position = Vec3(1, 2, 3);

@@ -123,7 +123,7 @@ TEST_F(GoalKinds, AnotherKindsPayloadChangesTheKind) {
   GoalEdit edit = one_of_each()[0];
   edit.id = "g";
   edit.weight = 3.0;
-  set(edit);
+  expect_edited("g", 1, [&] { return scene.set_goal(edit, {}); });
   GoalEdit aim;
   aim.id = "g";
   aim.aim = AimTarget{{1, 0, 0}, {}, Vec3(0, 0, 1)};

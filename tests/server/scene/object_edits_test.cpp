@@ -89,7 +89,7 @@ TEST_F(ObjectEdits, GoalsRideOnAnObject) {
 }
 
 TEST_F(ObjectEdits, AnObjectThatGoalsHangOnStays) {
-  ASSERT_TRUE(scene.set_object(object_edit("chair"), {}));
+  expect_edited("chair", 1, [&] { return scene.set_object(object_edit("chair"), {}); });
   ASSERT_TRUE(scene.set_goal(seat("sit", "chair"), {}));
   ASSERT_TRUE(scene.set_goal(seat("lean", "chair"), {}));
   expect_refused("in_use", "/id", [&] { return scene.remove_object("chair", {}); });
@@ -100,7 +100,7 @@ TEST_F(ObjectEdits, AnObjectThatGoalsHangOnStays) {
   away.relative_to = GoalBase{};
   ASSERT_TRUE(scene.set_goal(away, {}));
   ASSERT_TRUE(scene.set_binding(carrying("b1", "chair"), {}));
-  expect_edited("chair", 0, [&] { return scene.remove_object("chair", 1); });
+  expect_edited("chair", 0, [&] { return scene.remove_object("chair", nth("chair", 1)); });
   EXPECT_TRUE(scene.bindings().empty());
 }
 
