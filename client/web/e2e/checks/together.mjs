@@ -49,6 +49,11 @@ async function locks({ page }) {
     await page.mouse.up();
   }
   await until(async () => (await other.getByTestId(`goal-${id}`).getByTestId("goal-held").count()) === 0, "the lock to go");
+  await until(async () => {
+    const { goals, scene } = await state(page);
+    const arrived = distance(scene.goals[id].position, goals[id].target) < 1e-5;
+    return arrived && distance((await state(other)).goals[id].target, goals[id].target) < 1e-4;
+  }, "where it was let go");
   await drags(other, "front", [40, -20], id);
 }
 
