@@ -7,7 +7,7 @@ ctest_in() {
   shift
   out=$LOGS/$preset-ctest.txt
   headline "ctest in build/$preset $*"
-  ctest --test-dir "build/$preset" --output-on-failure --no-tests=error --parallel "$(nproc)" --timeout 300 "$@" 2>&1 |
+  ctest --test-dir "build/$preset" --output-on-failure --no-tests=error --parallel "$(nproc)" --timeout 600 "$@" 2>&1 |
     tee "$out" || rc=$?
   ctest_tally "$out" >"$out.tally"
   gtest_skips "build/$preset/Testing/Temporary/LastTest.log" >>"$out.tally"
