@@ -62,6 +62,20 @@ void take_in(std::map<std::string, ChangedEntity<Entity>>& first,
   }
 }
 
+// A figure that goes takes its pose along: the one from before the whole change.
+void give_pose(SceneFigure& kept, const ChangedPose& pose) {
+  const bool alone = pose.expected == kept.pose;
+  if (alone || pose.asked) kept.q = pose.q;
+  if (alone) kept.pose = pose.other;
+  if (pose.asked) kept.posed = pose.other_q;
+}
+
+// Of a figure that went and has come anew: the pose is as much another as if somebody had said it.
+ChangedPose pose_before(const SceneFigure& kept, const ChangedPose& after) {
+  return {
+      kept.q, kept.pose, after.expected, true, kept.revision, kept.posed, after.asked ? after.expected_q : kAtStart};
+}
+
 }  // namespace
 
 bool Change::empty() const {
@@ -101,15 +115,21 @@ bool Change::join(const Change& next) {
   if (!follows(figures, next.figures) || !follows(objects, next.objects) || !follows(goals, next.goals) ||
       !follows(bindings, next.bindings) || !follows(cameras, next.cameras))
     return false;
-  take_in(figures, next.figures);
-  take_in(objects, next.objects);
-  take_in(goals, next.goals);
-  take_in(bindings, next.bindings);
-  take_in(cameras, next.cameras);
+  for (const auto& [id, changed] : next.figures) {
+    const auto pose = poses.find(id);
+    if (changed.expected != 0 || pose == poses.end()) continue;
+    const auto [place, is_new] = figures.try_emplace(id, changed);
+    if (is_new && changed.other) give_pose(*place->second.other, pose->second);
+    poses.erase(pose);
+  }
   for (const auto& [figure, after] : next.poses) {
     const auto [place, is_new] = poses.try_emplace(figure, after);
-    if (is_new) continue;
     ChangedPose& pose = place->second;
+    if (is_new) {
+      if (const auto gone = figures.find(figure); gone != figures.end() && gone->second.other)
+        pose = pose_before(*gone->second.other, after);
+      continue;
+    }
     // Another has had to do with the figure between: its pose will be solved anew, from where it then stands.
     pose.expected = pose.expected == after.other ? after.expected : 0;
     if (!after.asked) continue;
@@ -117,6 +137,11 @@ bool Change::join(const Change& next) {
     pose.expected_q = after.expected_q;
     pose.asked = true;
   }
+  take_in(figures, next.figures);
+  take_in(objects, next.objects);
+  take_in(goals, next.goals);
+  take_in(bindings, next.bindings);
+  take_in(cameras, next.cameras);
   print.add(next.print);
   return true;
 }

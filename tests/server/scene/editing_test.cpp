@@ -414,6 +414,52 @@ TEST_F(EditingTest, AFigureThatIsMadeAndPosedInOneEditComesBack) {
   }
 }
 
+// The pose that a gesture began with was forgotten where the gesture took the figure away and made it anew: undo
+// brought the new one's, under a number that others' steps did not know.
+TEST_F(EditingTest, AGestureThatMakesAFigureAnewGivesTheOldOnesPoseBack) {
+  ASSERT_TRUE(edit(by("ana"), [&](Scene& s) { return s.set_figure(tempus_entry("other"), {}); }));
+  std::vector<double> q = scene.figures().at("other").q;
+  q[0] = 1.0;
+  ASSERT_TRUE(edit(by("ben"), [&](Scene& s) { return s.set_q("other", q, {}); }));
+  const std::string before = document();
+  ASSERT_TRUE(edit(by("ana", "drag"), [](Scene& s) { return s.remove_figure("other", {}); }));
+  ASSERT_TRUE(edit(by("ana", "drag"), [&](Scene& s) -> Result<Edited> {
+    EXPECT_TRUE(s.set_figure(tempus_entry("other"), {}));
+    q[0] = 2.0;
+    return s.set_q("other", q, {});
+  }));
+  const std::string after = document();
+  for (int i = 0; i < 3; ++i) {
+    ASSERT_TRUE(editing.undo(by("ana")));
+    EXPECT_EQ(document(), before);
+    ASSERT_TRUE(editing.redo(by("ana"))) << editing.redo(by("ana")).error().message;
+    EXPECT_EQ(document(), after);
+  }
+  for (const char* name : {"ana", "ben", "ana"}) {
+    const Result<Done> undone = editing.undo(by(name));
+    EXPECT_TRUE(undone) << name << ": " << undone.error().message;
+  }
+}
+
+TEST_F(EditingTest, AGestureThatPosesAFigureAndRemovesItGivesTheFirstPoseBack) {
+  std::vector<double> q = scene.figures().at("body").q;
+  q[0] = 1.0;
+  ASSERT_TRUE(edit(by("ben"), [&](Scene& s) { return s.set_q("body", q, {}); }));
+  const std::string before = document();
+  q[0] = 2.0;
+  ASSERT_TRUE(edit(by("ana", "drag"), [&](Scene& s) { return s.set_q("body", q, {}); }));
+  ASSERT_TRUE(edit(by("ana", "drag"), [](Scene& s) { return s.remove_figure("body", {}); }));
+  const std::string after = document();
+  for (int i = 0; i < 3; ++i) {
+    ASSERT_TRUE(editing.undo(by("ana")));
+    EXPECT_EQ(document(), before);
+    ASSERT_TRUE(editing.redo(by("ana"))) << editing.redo(by("ana")).error().message;
+    EXPECT_EQ(document(), after);
+  }
+  ASSERT_TRUE(editing.undo(by("ana")));
+  EXPECT_TRUE(editing.undo(by("ben")));
+}
+
 // A pose of the figure's other form has another length.
 TEST_F(EditingTest, NoPoseOfAnotherFormComesBack) {
   ASSERT_TRUE(set(by("ana"), "g1", {1, 0, 0}));
