@@ -1,5 +1,7 @@
 #include "tests/support/figures.h"
 
+#include <algorithm>
+#include <span>
 #include <stdexcept>
 
 #include "server/solver/kinematics.h"
@@ -76,8 +78,8 @@ Vec3 random_point(std::mt19937& random, double reach) {
 FigureDocument random_figure(std::mt19937& random, int most) {
   const JointType types[] = {JointType::ball,  JointType::ball,      JointType::universal,
                              JointType::hinge, JointType::prismatic, JointType::fixed};
-  FigureDocument d =
-      column(2 + pick(random, most - 1), 0.0, pick(random, 3) > 0 ? JointType::free : types[pick(random, 6)]);
+  const int size = 2 + pick(random, most - 1);
+  FigureDocument d = column(size, 0.0, pick(random, 3) > 0 ? JointType::free : types[pick(random, 6)]);
   for (int i = 0; i < static_cast<int>(d.segments.size()); ++i) {
     Segment& s = d.segments[static_cast<std::size_t>(i)];
     if (i > 0) {
@@ -85,8 +87,8 @@ FigureDocument random_figure(std::mt19937& random, int most) {
       s.joint.type = types[pick(random, 6)];
     }
     s.joint.parent_from_joint.position = pick(random, 8) == 0 ? kZero : random_point(random, 0.5);
-    s.joint.parent_from_joint.rotation =
-        glm::normalize(Quat(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1), 1.0));
+    const Vec3 turn = random_point(random, 1.0);
+    s.joint.parent_from_joint.rotation = glm::normalize(Quat(turn.x, turn.y, turn.z, 1.0));
     s.joint.bend_axis = pick(random, 3) == 0 ? kZero : glm::normalize(random_point(random, 1.0) + Vec3(0, 0, 2));
     s.touch_point = pick(random, 8) == 0 ? kZero : random_point(random, 0.5);
     if (s.joint.type == JointType::hinge || s.joint.type == JointType::prismatic) s.joint.axes = {kZ};
@@ -127,6 +129,11 @@ bool all_finite(const Pose& pose) {
     if (!finite(g.touch) || !finite(g.target) || !finite(g.error) || !finite(g.force)) return false;
   }
   return finite(pose.report.cost) && finite(pose.report.balance_error);
+}
+
+bool same_bytes(const std::vector<double>& a, const std::vector<double>& b) {
+  const auto one = std::as_bytes(std::span(a)), other = std::as_bytes(std::span(b));
+  return std::equal(one.begin(), one.end(), other.begin(), other.end());
 }
 
 }  // namespace posed::test

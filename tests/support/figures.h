@@ -25,7 +25,8 @@ FigureDocument column(int segments, double length, JointType root = JointType::f
 // A tree of 2 to `most` segments with all joint types, some links of no length, and any root.
 FigureDocument random_figure(std::mt19937& random, int most);
 
-// The same on every machine, unlike the standard's distributions.
+// The same on every machine, unlike the standard's distributions. Draw one after the other, never as two arguments of
+// one call: whose turn comes first is the compiler's choice there.
 double uniform(std::mt19937& random, double low, double high);
 int pick(std::mt19937& random, int size);
 Vec3 random_point(std::mt19937& random, double reach);
@@ -38,5 +39,8 @@ double worst_bone(const BodyTree& tree, const std::vector<Transform>& world_from
 double worst_quaternion(const BodyTree& tree, const std::vector<double>& q);
 
 bool all_finite(const Pose& pose);
+
+// Bit by bit: 0 is not -0, and a NaN is itself.
+bool same_bytes(const std::vector<double>& a, const std::vector<double>& b);
 
 }  // namespace posed::test

@@ -1,7 +1,7 @@
 // One spring solver with its figures, goals and start: what the tests of the solver share.
 #pragma once
 
-#include <cstring>
+#include <algorithm>
 
 #include "server/solver/kinematics.h"
 #include "server/solver/springs/spring_solver.h"
@@ -53,10 +53,8 @@ struct SpringBench {
 };
 
 inline bool same_bytes(const AllQ& a, const AllQ& b) {
-  for (std::size_t f = 0; f < a.size(); ++f) {
-    if (std::memcmp(a[f].data(), b[f].data(), a[f].size() * sizeof(double)) != 0) return false;
-  }
-  return true;
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const auto& one, const auto& other) { return same_bytes(one, other); });
 }
 
 inline double worst_limit(const Figures& figures, const AllQ& q) {

@@ -49,7 +49,8 @@ void limit(std::mt19937& random, Segment& s) {
   Joint& joint = s.joint;
   if (joint.type == JointType::ball && pick(random, 2) == 0) {
     if (pick(random, 3) > 0) {
-      joint.swing = ellipse(uniform(random, 0.05, 2.5), uniform(random, 0.05, 2.5));
+      const double first = uniform(random, 0.05, 2.5), second = uniform(random, 0.05, 2.5);
+      joint.swing = ellipse(first, second);
       if (pick(random, 2) == 0) joint.swing->center = way(random);
     } else {
       const Vec3 c = way(random), x = perpendicular(c, kX), y = glm::cross(c, x);

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <limits>
 
 #include "server/solver/kinematics.h"
@@ -262,12 +261,12 @@ void expect_sound(Bench& b, const char* what, int n) {
   ASSERT_TRUE(test::all_finite(out)) << what << " " << n;
   EXPECT_LT(test::worst_bone(*b.tree, out.world_from_segment), 1e-9) << what << " " << n;
   EXPECT_LT(test::worst_quaternion(*b.tree, out.q), 1e-12) << what << " " << n;
-  ASSERT_EQ(0, std::memcmp(out.q.data(), again.q.data(), out.q.size() * sizeof(double))) << what << " " << n;
+  ASSERT_TRUE(test::same_bytes(out.q, again.q)) << what << " " << n;
   ReachTreeSolver fresh(b.tree);
   Pose third;
   std::vector<double> q = b.start;
   fresh.solve(q, b.goals, b.options, {}, third);
-  ASSERT_EQ(0, std::memcmp(out.q.data(), third.q.data(), out.q.size() * sizeof(double))) << what << " " << n;
+  ASSERT_TRUE(test::same_bytes(out.q, third.q)) << what << " " << n;
   EXPECT_EQ(out.q, b.q);
 
   double terms = 0.0;
