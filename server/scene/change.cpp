@@ -62,7 +62,7 @@ void take_in(std::map<std::string, ChangedEntity<Entity>>& first,
   }
 }
 
-// A figure that goes takes its pose along: the one from before the whole change.
+// What a figure was before the whole change has the pose from then, too.
 void give_pose(SceneFigure& kept, const ChangedPose& pose) {
   const bool alone = pose.expected == kept.pose;
   if (alone || pose.asked) kept.q = pose.q;
@@ -117,10 +117,10 @@ bool Change::join(const Change& next) {
     return false;
   for (const auto& [id, changed] : next.figures) {
     const auto pose = poses.find(id);
-    if (changed.expected != 0 || pose == poses.end()) continue;
+    if (pose == poses.end()) continue;
     const auto [place, is_new] = figures.try_emplace(id, changed);
     if (is_new && changed.other) give_pose(*place->second.other, pose->second);
-    poses.erase(pose);
+    if (changed.expected == 0) poses.erase(pose);
   }
   for (const auto& [figure, after] : next.poses) {
     const auto [place, is_new] = poses.try_emplace(figure, after);

@@ -441,6 +441,21 @@ TEST_F(EditingTest, AGestureThatMakesAFigureAnewGivesTheOldOnesPoseBack) {
   }
 }
 
+TEST_F(EditingTest, AGestureThatPosesAFigureChangesItAndRemovesItGivesTheFirstPoseBack) {
+  std::vector<double> q = scene.figures().at("body").q;
+  q[0] = 1.0;
+  ASSERT_TRUE(edit(by("ben"), [&](Scene& s) { return s.set_q("body", q, {}); }));
+  const std::string before = document();
+  q[0] = 2.0;
+  ASSERT_TRUE(edit(by("ana", "drag"), [&](Scene& s) { return s.set_q("body", q, {}); }));
+  ASSERT_TRUE(edit(by("ana", "drag"), [](Scene& s) { return s.set_figure(tempus_entry("body", 1.8), {}); }));
+  ASSERT_TRUE(edit(by("ana", "drag"), [](Scene& s) { return s.remove_figure("body", {}); }));
+  ASSERT_EQ(editing.history().steps().size(), 2u);
+  ASSERT_TRUE(editing.undo(by("ana")));
+  EXPECT_EQ(document(), before);
+  EXPECT_TRUE(editing.undo(by("ben")));
+}
+
 TEST_F(EditingTest, AGestureThatPosesAFigureAndRemovesItGivesTheFirstPoseBack) {
   std::vector<double> q = scene.figures().at("body").q;
   q[0] = 1.0;
