@@ -131,9 +131,11 @@ bool Change::join(const Change& next) {
       continue;
     }
     // Another has had to do with the figure between: its pose will be solved anew, from where it then stands.
-    pose.expected = pose.expected == after.other ? after.expected : 0;
+    const bool alone = pose.expected == after.other;
+    pose.expected = alone ? after.expected : 0;
     if (!after.asked) continue;
     if (!pose.asked) pose.other_q = after.other_q;
+    if (!pose.asked && !alone) pose.q = after.q;
     pose.expected_q = after.expected_q;
     pose.asked = true;
   }

@@ -441,6 +441,25 @@ TEST_F(EditingTest, AGestureThatMakesAFigureAnewGivesTheOldOnesPoseBack) {
   }
 }
 
+// The gesture's goal remembered the pose of ben's step, which was not there any more when the gesture set its own.
+TEST_F(EditingTest, AGesturesPoseGivesBackWhatItHasReplaced) {
+  std::vector<double> q = scene.figures().at("body").q;
+  const auto moved = [&](double x) {
+    return [&q, x](Scene& s) {
+      std::vector<double> other = q;
+      other[0] = x;
+      return s.set_q("body", other, {});
+    };
+  };
+  ASSERT_TRUE(edit(by("ben"), moved(1.0)));
+  ASSERT_TRUE(set(by("ana", "drag"), "g1", {1, 0, 0}));
+  ASSERT_TRUE(editing.undo(by("ben")));
+  ASSERT_TRUE(edit(by("ana", "drag"), moved(2.0)));
+  ASSERT_EQ(editing.history().steps().size(), 2u);
+  ASSERT_TRUE(editing.undo(by("ana")));
+  EXPECT_EQ(scene.figures().at("body").q, q);
+}
+
 TEST_F(EditingTest, AGestureThatPosesAFigureChangesItAndRemovesItGivesTheFirstPoseBack) {
   std::vector<double> q = scene.figures().at("body").q;
   q[0] = 1.0;
