@@ -42,39 +42,46 @@ HWY_INLINE void limb_quaternion(const Link& link, const V3<T>& direction, const 
   out[0] = r.x, out[1] = r.y, out[2] = r.z, out[3] = sw * c - dot(swing, twisted);
 }
 
+// Adds the slopes of one rest; its cost.
 template <class T>
-T pull_posture(const Plan& plan, const Steps<T>& at, const Kinematics<T>& figure, Newton<T>& newton) {
+HWY_INLINE T pull_rest(const Plan& plan, const Rest& rest, const Steps<T>& at, const Kinematics<T>& figure,
+                       Newton<T>& newton) {
+  const auto i = static_cast<std::size_t>(rest.link);
+  const Link& link = plan.links[i];
+  const auto first = static_cast<std::size_t>(link.dof), more = static_cast<std::size_t>(link.more);
   T cost(0.0);
-  for (std::size_t i = 0; i < plan.links.size(); ++i) {
-    const Link& link = plan.links[i];
-    const auto first = static_cast<std::size_t>(link.dof), more = static_cast<std::size_t>(link.more);
-    if (link.dofs == 0) continue;
-    const T weight(plan.springs[first].weight);
-    const auto hold = [&](std::size_t j, const T& error) {
-      const T w(plan.springs[j].weight);
-      newton.spring_slope(j) = error * w;
-      cost = cost + error * error * w;
-    };
-    if (link.kind == LinkKind::axes) {
-      for (std::size_t j = first; j < first + static_cast<std::size_t>(link.dofs); ++j)
-        hold(j, at.turns[j] - T(plan.springs[j].turn));
-    } else if (link.kind == LinkKind::limb) {
-      T q[4];
-      limb_quaternion(link, {at.more[more], at.more[more + 1], at.more[more + 2]}, at.turns[first + 2], q);
-      const V3<T> off = turn_between(&plan.spring_more[more], q);
-      const Swinging<T>& s = figure.swinging(i);
-      cost = cost + dot(off, off) * weight;
-      newton.spring_slope(first) = dot(off, s.turn_out) * weight;
-      newton.spring_slope(first + 1) = dot(off, s.turn_along) * weight;
-      newton.spring_slope(first + 2) = dot(off, s.direction) * weight;
-    } else {
-      const bool floats = link.kind == LinkKind::floating;
-      const std::size_t q = more + (floats ? 3 : 0), turn = first + (floats ? 3 : 0);
-      const V3<T> off = turn_between(&plan.spring_more[q], &at.more[q]);
-      hold(turn, off.x), hold(turn + 1, off.y), hold(turn + 2, off.z);
-      for (std::size_t k = 0; floats && k < 3; ++k) hold(first + k, at.more[more + k] - T(plan.spring_more[more + k]));
-    }
+  const auto hold = [&](std::size_t k, const T& error) {
+    const T pull = error * T(rest.weight[k]);
+    newton.spring_slope(first + k) = newton.spring_slope(first + k) + pull;
+    cost = cost + error * pull;
+  };
+  if (link.kind == LinkKind::axes) {
+    for (std::size_t k = 0; k < static_cast<std::size_t>(link.dofs); ++k) hold(k, at.turns[first + k] - T(rest.at[k]));
+  } else if (link.kind == LinkKind::limb) {
+    T q[4];
+    limb_quaternion(link, {at.more[more], at.more[more + 1], at.more[more + 2]}, at.turns[first + 2], q);
+    const T weight(rest.weight[0]);
+    const V3<T> off = turn_between(rest.at.data(), q), pull = off * weight;
+    const Swinging<T>& s = figure.swinging(i);
+    const V3<T>* const ways[3] = {&s.turn_out, &s.turn_along, &s.direction};
+    for (std::size_t k = 0; k < 3; ++k)
+      newton.spring_slope(first + k) = newton.spring_slope(first + k) + dot(pull, *ways[k]);
+    cost = dot(off, pull);
+  } else if (link.dofs > 0) {
+    const std::size_t place = link.kind == LinkKind::floating ? 3 : 0;
+    for (std::size_t k = 0; k < place; ++k) hold(k, at.more[more + k] - T(rest.at[k]));
+    const V3<T> off = turn_between(&rest.at[place], &at.more[more + place]);
+    hold(place, off.x), hold(place + 1, off.y), hold(place + 2, off.z);
   }
+  return cost;
+}
+
+// All rests: their slopes anew.
+template <class T>
+T pull_rests(const Plan& plan, const Steps<T>& at, const Kinematics<T>& figure, Newton<T>& newton) {
+  newton.clear_springs();
+  T cost(0.0);
+  for (const Rest& rest : plan.rests) cost = cost + pull_rest(plan, rest, at, figure, newton);
   return cost;
 }
 

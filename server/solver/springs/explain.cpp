@@ -48,18 +48,14 @@ double Explainer::explain(const Plan& plan, std::span<const SpringGoal> goals,
   }
   std::fill(costs_.begin(), costs_.end(), 0.0);
   std::fill(apart_.begin(), apart_.end(), 0.0);
-  std::fill(sprung_.begin(), sprung_.end(), 0.0);
-  if (plan.sprung) probe_.pull_springs(plan, state, sprung_);
   for (const Term& term : plan.terms) {
     const auto g = static_cast<std::size_t>(term.goal);
     report(plan, term, goals[g], out[g]);
     if (term.weight > 0.0) probe_.pull(plan, term, slope(g));
   }
   for (std::size_t g = 0; g < goals.size(); ++g) {
-    const auto* posture = std::get_if<PostureSpring>(&goals[g].spring);
-    if (posture && pulls(goals[g]))
-      report_posture(plan, state, *posture, goals[g], g, link_of_segment[static_cast<std::size_t>(goals[g].figure)],
-                     out[g]);
+    if (std::holds_alternative<PostureSpring>(goals[g].spring) && pulls(goals[g]))
+      report_posture(plan, goals[g], g, link_of_segment[static_cast<std::size_t>(goals[g].figure)][0], out[g]);
   }
   double scale = 0.0, most = 0.0;
   for (std::size_t g = 0; g < goals.size(); ++g) {
@@ -142,39 +138,30 @@ void Explainer::report(const Plan& plan, const Term& term, const SpringGoal& goa
   if (term.kind == TermKind::turn && !std::holds_alternative<PoseSpring>(goal.spring)) out.force = -error * term.weight;
 }
 
-void Explainer::report_posture(const Plan& plan, const State& state, const PostureSpring& posture,
-                               const SpringGoal& goal, std::size_t index, const std::vector<int>& link_of_segment,
-                               GoalReport& out) {
+void Explainer::report_posture(const Plan& plan, const SpringGoal& goal, std::size_t index, int root, GoalReport& out) {
   double square = 0.0;
-  for (const int joint : posture.joints) {
-    const Link& link = plan.links[static_cast<std::size_t>(link_of_segment[static_cast<std::size_t>(joint)])];
-    const std::size_t first = link.first_dof(), end = link.end_dof();
-    double here = 0.0, off = 0.0;
-    for (std::size_t j = first; j < end; ++j) {
-      const double weight = plan.springs[j].weight;
-      if (weight <= 0.0) continue;
-      // The spring's weight has the lever in it. Two posture goals on one joint are told as one.
-      const double apart = sprung_[j] / weight;
-      off = std::max(off, std::abs(apart));
-      here += apart * apart * weight / goal.weight;
+  for (const Rest& rest : plan.rests) {
+    if (rest.goal != static_cast<int>(index)) continue;
+    const Link& link = plan.links[static_cast<std::size_t>(rest.link)];
+    if (link.dofs == 0) continue;
+    const std::size_t first = link.first_dof();
+    std::fill(sprung_.begin(), sprung_.end(), 0.0);
+    // The rest's weight has the lever in it.
+    const double cost = probe_.pull(plan, rest, sprung_);
+    double off = 0.0;
+    for (std::size_t j = first; j < link.end_dof(); ++j) {
+      off = std::max(off, std::abs(sprung_[j] / rest.weight[j - first]));
       slope(index)[j] += sprung_[j];
     }
-    if (link.kind == LinkKind::limb) {  // whose degrees of freedom are not at right angles
-      const double* more = state.more.data() + link.more;
-      const Vec3 direction(more[0], more[1], more[2]);
-      const Quat at = shortest_arc(link.limb, direction, link.side) * quat_about(link.limb, state.turns[first + 2]);
-      const double* rest = plan.spring_more.data() + link.more;
-      const Quat apart = glm::conjugate(quat_from_xyzw(std::span<const double>(rest, 4))) * at;
-      off = 2.0 * std::atan2(glm::length(Vec3(apart.x, apart.y, apart.z)), std::abs(apart.w));
-      here = off * off * plan.springs[first].weight / goal.weight;
-    }
-    square += here;
-    const bool slides = link.dofs > 0 && plan.dofs[first].kind == DofKind::along_axis;
+    // A limb's degrees of freedom are not at right angles.
+    if (link.kind == LinkKind::limb) off = std::sqrt(cost / rest.weight[0]);
+    square += cost / goal.weight;
+    const bool slides = plan.dofs[first].kind == DofKind::along_axis;
     if (std::sqrt(square) > goal.tolerance.radius) compare(goal, index, off, slides ? kReachedPlace : kReachedTurn);
   }
   out.error = std::sqrt(square);
   costs_[index] = goal.weight * square;
-  if (link_of_segment[0] >= 0) out.touch = out.target = probe_.point(link_of_segment[0], kZero);
+  if (root >= 0) out.touch = out.target = probe_.point(root, kZero);
 }
 
 void Explainer::find_state(const Plan& plan, std::span<const SpringGoal> goals, std::size_t index,

@@ -42,8 +42,7 @@ class Explainer {
   };
 
   void report(const Plan& plan, const Term& term, const SpringGoal& goal, GoalReport& out);
-  void report_posture(const Plan& plan, const State& state, const PostureSpring& posture, const SpringGoal& goal,
-                      std::size_t index, const std::vector<int>& link_of_segment, GoalReport& out);
+  void report_posture(const Plan& plan, const SpringGoal& goal, std::size_t index, int root, GoalReport& out);
   // What counts as reached is the same for every part of a goal: places, turns, single joints.
   void compare(const SpringGoal& goal, std::size_t index, double error, double reached);
   void find_state(const Plan& plan, std::span<const SpringGoal> goals, std::size_t index, std::vector<GoalReport>& out);

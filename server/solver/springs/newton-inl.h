@@ -44,8 +44,11 @@ class Newton {
     parts_.clear();
   }
   Load<T>& load(int link) { return loads_[static_cast<std::size_t>(link)]; }
-  // The slope of a degree of freedom's own spring; Plan::springs has the weight.
+  // The slope of a degree of freedom's own springs; Plan::stiffness has their weight.
   T& spring_slope(std::size_t dof) { return spring_slopes_[dof]; }
+  void clear_springs() {
+    for (std::size_t dof = 0; dof < columns_.size(); ++dof) spring_slopes_[dof] = T(0.0);
+  }
 
   // A row over several segments. Parts are added after it.
   void add_tie(const T& weight) { ties_.add() = {weight, parts_.size(), parts_.size()}; }
@@ -161,9 +164,9 @@ class Newton {
     for (int k = 0; k < 6; ++k) {
       const std::size_t dof = link.first_dof() + static_cast<std::size_t>(k);
       diagonal[k] = damping * effort(plan, dof, by_effort);
-      if (plan.sprung) diagonal[k] = diagonal[k] + T(plan.springs[dof].weight);
+      if (plan.sprung()) diagonal[k] = diagonal[k] + T(plan.stiffness[dof]);
     }
-    if (plan.sprung) {
+    if (plan.sprung()) {
       const T* s = &spring_slopes_[static_cast<std::size_t>(link.dof)];
       load.slope += {{s[3], s[4], s[5]}, {s[0], s[1], s[2]}};
     }
@@ -201,8 +204,8 @@ class Newton {
         slope[k] = dot(load.slope.turn, axis);
       }
       s[k][k] = s[k][k] + damping * effort(plan, first + k, by_effort);
-      if (plan.sprung) {
-        if (link.kind != LinkKind::limb) s[k][k] = s[k][k] + T(plan.springs[first + k].weight);
+      if (plan.sprung()) {
+        if (link.kind != LinkKind::limb) s[k][k] = s[k][k] + T(plan.stiffness[first + k]);
         slope[k] = slope[k] + spring_slopes_[first + k];
       }
     }
@@ -211,7 +214,7 @@ class Newton {
         // Its steps are not turns one after the other, and an edge that it is pressed against bends its way.
         const Swinging<T>& limb = figure.swinging(i);
         const V3<T> torque = load.slope.turn * newton;
-        if (plan.sprung) add_spring_of_limb(T(plan.springs[first].weight), figure, first, s);
+        if (plan.sprung()) add_spring_of_limb(T(plan.stiffness[first]), figure, first, s);
         const T pressed = select(limb.on_edge > zero, least(slope[0], zero), zero) * newton;
         s[0][0] = s[0][0] + dot(torque, limb.bend_out);
         s[0][1] = s[0][1] + dot(torque, limb.bend_both);
@@ -341,7 +344,7 @@ class Newton {
       const Link& link = plan.links[i];
       Wrench<T> slope = slopes_[i];
       if (link.kind == LinkKind::floating) {
-        if (with_springs && plan.sprung) {
+        if (with_springs && plan.sprung()) {
           const T* s = &spring_slopes_[static_cast<std::size_t>(link.dof)];
           slope += {{s[3], s[4], s[5]}, {s[0], s[1], s[2]}};
         }
@@ -352,7 +355,7 @@ class Newton {
         const auto k = static_cast<std::size_t>(j);
         Column& c = columns_[k];
         c.slope = dot(plan.dofs[k].kind == DofKind::along_axis ? slope.shift : slope.turn, figure.axis(k));
-        if (with_springs && plan.sprung) c.slope = c.slope + spring_slopes_[k];
+        if (with_springs && plan.sprung()) c.slope = c.slope + spring_slopes_[k];
         T share = c.slope * c.inverse;
         if (with_springs) share = select(stopped_[k] > T(0.0), -stops_[k], share);
         slope.turn -= c.turn * share;

@@ -95,10 +95,12 @@ struct Support {
   Vec3 point{0.0, 0.0, 0.0};
 };
 
-// A joint's own spring: posture goals, and the pull back to the start pose.
-struct Spring1 {
-  double weight = 0.0;  // of rad^2 or m^2
-  double turn = 0.0;    // of an axis: where it rests
+// A joint's own spring: a posture goal's share, or the pull back to the start pose.
+struct Rest {
+  int link = 0;
+  int goal = -1;                   // its index; -1: the start pose
+  std::array<double, 6> weight{};  // of each degree of freedom, of rad^2 or m^2; of a limb the first's
+  std::array<double, 7> at{};      // of axes their angles or ways; of balls and limbs xyzw; of roots place and xyzw
 };
 
 struct Plan {
@@ -107,12 +109,13 @@ struct Plan {
   std::size_t more = 0;  // size of State::more
   std::vector<Term> terms;
   std::vector<Support> supports;
-  bool sprung = false;              // whether these count:
-  std::vector<Spring1> springs;     // one a degree of freedom
-  std::vector<double> spring_more;  // as State::more: where balls and roots rest
-  std::vector<double> masses;       // of each figure, kg
+  std::vector<Rest> rests;
+  std::vector<double> stiffness;  // of all rests together, one a degree of freedom
+  std::vector<double> masses;     // of each figure, kg
   // Bounds of this solve: the dofs' own limits, or tighter ones.
   std::vector<double> least, most;
+
+  bool sprung() const { return !rests.empty(); }
 };
 
 struct State {

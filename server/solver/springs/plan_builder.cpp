@@ -145,8 +145,7 @@ void add_figure(const BodyTree& tree, int figure, std::span<const char> active, 
     plan.links.push_back(link);
     plan.masses[at(figure)] += link.mass;
   }
-  plan.springs.assign(plan.dofs.size(), {});
-  plan.spring_more.assign(plan.more, 0.0);
+  plan.stiffness.assign(plan.dofs.size(), 0.0);
 }
 
 void confine(const Plan& plan, State& state) {

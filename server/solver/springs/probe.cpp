@@ -79,10 +79,13 @@ void Probe::pull(const Plan& plan, const Term& term, std::span<double> slope) {
   in.collect(plan, slope);
 }
 
-void Probe::pull_springs(const Plan& plan, const State&, std::span<double> slope) {
+double Probe::pull(const Plan& plan, const Rest& rest, std::span<double> slope) {
   Inside& in = *inside_;
-  here::pull_posture(plan, in.at, in.figure, in.newton);
-  for (std::size_t j = 0; j < plan.dofs.size(); ++j) slope[j] += in.newton.spring_slope(j);
+  in.newton.clear_springs();
+  const double cost = here::pull_rest(plan, rest, in.at, in.figure, in.newton);
+  const Link& link = plan.links[static_cast<std::size_t>(rest.link)];
+  for (std::size_t j = link.first_dof(); j < link.end_dof(); ++j) slope[j] += in.newton.spring_slope(j);
+  return cost;
 }
 
 Vec3 Probe::point(int link, const Vec3& point) const {

@@ -24,10 +24,9 @@ class Probe {
 
   // At the placed pose. Shifts are left out.
   TermErrors errors(const Plan& plan, const Term& term) const;
-  // Adds weight x error of what counts, as it pulls at each degree of freedom (the slope of half the cost). With the
-  // springs of Plan::springs: pull_springs.
+  // Adds weight x error of what counts, as it pulls at each degree of freedom (the slope of half the cost).
   void pull(const Plan& plan, const Term& term, std::span<double> slope);
-  void pull_springs(const Plan& plan, const State& state, std::span<double> slope);
+  double pull(const Plan& plan, const Rest& rest, std::span<double> slope);  // and its cost
 
   Vec3 point(int link, const Vec3& point) const;  // in the world
   Transform link(int link) const;                 // world_from_segment

@@ -104,7 +104,7 @@ template <class T>
 void pull(const Plan& plan, const Steps<T>& at, const Kinematics<T>& figure, Newton<T>& newton) {
   newton.clear();
   for (const Term& term : plan.terms) pull_term(plan, term, figure, newton);
-  if (plan.sprung) pull_posture(plan, at, figure, newton);
+  if (plan.sprung()) pull_rests(plan, at, figure, newton);
 }
 
 template <class T>
@@ -136,7 +136,7 @@ template <class T>
 T cost(const Plan& plan, const Steps<T>& at, const Kinematics<T>& figure, Newton<T>& newton) {
   T sum(0.0);
   for (const Term& term : plan.terms) sum = sum + cost_of(plan, term, figure);
-  if (plan.sprung) sum = sum + pull_posture(plan, at, figure, newton);
+  if (plan.sprung()) sum = sum + pull_rests(plan, at, figure, newton);
   return sum;
 }
 

@@ -128,8 +128,11 @@ void SpringSolver::prepare(std::span<const SpringGoal> goals) {
   plan_.terms = terms_;
   for (State* state : {&state_, &start_, &kept_, &origin_, &posture_}) springs::resize(plan_, *state);
   angles_.resize(plan_);
-  own_springs_ = plan_.springs;
-  own_more_ = plan_.spring_more;
+  std::size_t rests = plan_.links.size();
+  for (const SpringGoal& goal : goals) {
+    if (const auto* posture = std::get_if<PostureSpring>(&goal.spring)) rests += posture->joints.size();
+  }
+  plan_.rests.reserve(rests);
   posture_q_.clear();
   for (const auto& figure : figures_) posture_q_.push_back(figure->rest());
   starts_ = springs::make_starts(plan_);
@@ -273,7 +276,7 @@ double SpringSolver::weights() const {
   double sum = 0.0;
   // Of what is held for a higher priority the goals' own, which are not as stiff.
   for (std::size_t i = 0; i < terms_.size(); ++i) sum += plan_.terms[i].weight > 0.0 ? terms_[i].weight : 0.0;
-  for (std::size_t j = 0; plan_.sprung && j < plan_.springs.size(); ++j) sum += plan_.springs[j].weight;
+  for (const double stiffness : plan_.stiffness) sum += stiffness;
   return sum;
 }
 

@@ -94,7 +94,6 @@ class SpringSolver {
   void pin_roots(std::span<const SpringGoal> goals);
   void set_springs(std::span<const SpringGoal> goals, const int* level = nullptr);  // null: of all levels
   void hold_joints(const SpringGoal& posture);
-  void rest_quaternion(const BodyTree& tree, const springs::Link& link, std::span<const double> q);
   void hold_to_start();
   void let_go_of_start();
   double weights() const;
@@ -127,9 +126,7 @@ class SpringSolver {
   springs::State state_, start_, kept_, origin_, posture_;
   springs::JointAngles angles_;
   std::vector<std::vector<double>> posture_q_;
-  std::vector<springs::Spring1> own_springs_;  // of posture goals, while the start pose holds
-  std::vector<double> own_more_;
-  bool own_sprung_ = false;
+  std::size_t own_rests_ = 0;  // of posture goals, while the start pose holds, too
   double cost_ = 0.0;
 };
 

@@ -5,6 +5,7 @@
 #include "server/solver/springs/plan_builder.h"
 #include "server/solver/springs/probe.h"
 #include "server/solver/springs/pull-inl.h"
+#include "server/solver/springs/rests.h"
 #include "server/solver/springs/starts.h"
 #include "server/solver/springs/terms.h"
 #include "tests/support/joint_angles.h"
@@ -49,7 +50,6 @@ struct Laid {
     if (!posture) return;
     const auto f = static_cast<std::size_t>(goal.figure);
     const BodyTree& tree = *figures[f];
-    plan.sprung = true;
     std::vector<double> wanted = q[f];
     std::size_t next = 0;
     for (const int j : posture->joints) {
@@ -58,25 +58,14 @@ struct Laid {
     }
     State rest = state;
     test::read_q(tree, goal.figure, plan, wanted, rest);
-    plan.spring_more = rest.more;
-    for (const int joint : posture->joints) {
-      const Link& link = plan.links[static_cast<std::size_t>(link_of_segment[f][static_cast<std::size_t>(joint)])];
-      for (int j = link.dof; j < link.dof + link.dofs; ++j) {
-        const bool slides = plan.dofs[static_cast<std::size_t>(j)].kind == springs::DofKind::along_axis ||
-                            (link.kind == LinkKind::floating && j < link.dof + 3);
-        const double lever = slides ? 1.0 : tree.document().lever;
-        plan.springs[static_cast<std::size_t>(j)] = {goal.weight * lever * lever,
-                                                     rest.turns[static_cast<std::size_t>(j)]};
-      }
-      if (link.kind == LinkKind::limb)
-        std::copy_n(wanted.begin() + tree.q_at(joint), 4, plan.spring_more.begin() + link.more);
-    }
+    springs::add_rests(tree, goal, 0, link_of_segment[f], wanted, rest, plan);
+    springs::sum_stiffness(plan);
   }
 
   std::vector<double> pull(std::size_t dofs) {
     std::vector<double> slope(dofs, 0.0);
     for (const Term& term : plan.terms) probe.pull(plan, term, slope);
-    if (plan.sprung) probe.pull_springs(plan, state, slope);
+    for (const springs::Rest& rest : plan.rests) (void)probe.pull(plan, rest, slope);
     return slope;
   }
 };

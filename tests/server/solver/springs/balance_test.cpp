@@ -127,6 +127,27 @@ TEST(Balance, OfAHumanWithGoalsOfAllKinds) {
   expect_most(tally, 80);
 }
 
+// Balls came to rest where the later one has them.
+TEST(Balance, OfTwoPosturesOfEachJoint) {
+  std::mt19937 random(97);
+  const auto tree = test::build(test::all_joints());
+  for (int joint = 0; joint < tree->size(); ++joint) {
+    SpringBench b(tree);
+    for (const double weight : {10.0, 4.0}) {
+      const auto q = test::random_q(random, *tree);
+      const auto first = q.begin() + tree->q_at(joint);
+      SpringGoal goal;
+      goal.spring = PostureSpring{{joint}, {first, first + q_size(tree->joint(joint).type)}};
+      goal.weight = weight;
+      b.goals.push_back(goal);
+    }
+    const SpringPose out = b.solve();
+    EXPECT_EQ(out.report.status, SolveStatus::converged) << tree->segment(joint).name;
+    EXPECT_LT(b.unbalance(out), 2e-5) << tree->segment(joint).name;
+    for (std::size_t g = 0; g < 2; ++g) EXPECT_NEAR(b.error(out, g), out.goals[g].error, 1e-9);
+  }
+}
+
 TEST(Balance, OfRandomFiguresOfAllJoints) {
   std::mt19937 random(93);
   Tally tally;
