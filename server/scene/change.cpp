@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "server/solver/kinematics.h"
+
 namespace posed {
 namespace {
 
@@ -62,12 +64,15 @@ void take_in(std::map<std::string, ChangedEntity<Entity>>& first,
   }
 }
 
-// What a figure was before the whole change has the pose from then, too.
-void give_pose(SceneFigure& kept, const ChangedPose& pose) {
-  const bool alone = pose.expected == kept.pose;
-  if (alone || pose.asked) kept.q = pose.q;
-  if (alone) kept.pose = pose.other;
-  if (pose.asked) kept.posed = pose.other_q;
+// A figure that goes takes its pose along. `first`: as it was before the whole change; `last`: before it went.
+void give_pose(SceneFigure& first, const SceneFigure& last, const ChangedPose& pose) {
+  const bool alone = pose.expected == last.pose;
+  if (alone || pose.asked)
+    first.q = pose.q;
+  else if (check_q(*first.tree, last.q))
+    first.q = last.q;
+  first.pose = alone ? pose.other : last.pose;
+  first.posed = pose.asked ? pose.other_q : last.posed;
 }
 
 // Of a figure that went and has come anew: the pose is as much another as if somebody had said it.
@@ -117,10 +122,10 @@ bool Change::join(const Change& next) {
     return false;
   for (const auto& [id, changed] : next.figures) {
     const auto pose = poses.find(id);
-    if (pose == poses.end()) continue;
-    const auto [place, is_new] = figures.try_emplace(id, changed);
-    if (is_new && changed.other) give_pose(*place->second.other, pose->second);
-    if (changed.expected == 0) poses.erase(pose);
+    if (changed.expected != 0 || pose == poses.end()) continue;
+    std::optional<SceneFigure>& first = figures.try_emplace(id, changed).first->second.other;
+    if (first) give_pose(*first, *changed.other, pose->second);
+    poses.erase(pose);
   }
   for (const auto& [figure, after] : next.poses) {
     const auto [place, is_new] = poses.try_emplace(figure, after);

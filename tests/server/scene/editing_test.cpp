@@ -460,6 +460,25 @@ TEST_F(EditingTest, AGesturesPoseGivesBackWhatItHasReplaced) {
   EXPECT_EQ(scene.figures().at("body").q, q);
 }
 
+// Ben's pose was undone after the gesture had changed the figure: undo brought it back.
+TEST_F(EditingTest, AGestureThatChangesAFigureAndRemovesItGivesTheLastPoseBack) {
+  std::vector<double> q = scene.figures().at("body").q;
+  const auto moved = [&q](double x) {
+    q[0] = x;
+    return [&q](Scene& s) { return s.set_q("body", q, {}); };
+  };
+  ASSERT_TRUE(edit(by("ben"), moved(1.0)));
+  const std::string before = document();
+  ASSERT_TRUE(edit(by("ben"), moved(2.0)));
+  ASSERT_TRUE(edit(by("ana", "drag"), [](Scene& s) { return s.set_figure(tempus_entry("body", 1.8), {}); }));
+  ASSERT_TRUE(editing.undo(by("ben")));
+  ASSERT_TRUE(edit(by("ana", "drag"), [](Scene& s) { return s.remove_figure("body", {}); }));
+  ASSERT_EQ(editing.history().steps().size(), 3u);
+  ASSERT_TRUE(editing.undo(by("ana")));
+  EXPECT_EQ(document(), before);
+  EXPECT_TRUE(editing.undo(by("ben")));
+}
+
 TEST_F(EditingTest, AGestureThatPosesAFigureChangesItAndRemovesItGivesTheFirstPoseBack) {
   std::vector<double> q = scene.figures().at("body").q;
   q[0] = 1.0;
