@@ -1,6 +1,7 @@
 // Bindings as documents of the scene: a sensor that moves a goal, an object, a camera or a joint. Plain values.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,6 +45,7 @@ struct ButtonAction {
   Do act = Do::recenter;
   bool operator==(const ButtonAction&) const = default;
 };
+inline constexpr std::array kButtonActionNames{"recenter", "toggle", "save"};  // on the wire and for people
 
 // The target as the sensor sees it: how the one is fixed to the other.
 struct SensorOffset {

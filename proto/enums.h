@@ -49,7 +49,7 @@ struct EnumNames<Binding::Mode> {
 };
 template <>
 struct EnumNames<ButtonAction::Do> {
-  static constexpr std::array names{"recenter", "toggle", "save"};
+  static constexpr auto names = kButtonActionNames;
 };
 template <>
 struct EnumNames<GoalState> {

@@ -5,8 +5,6 @@
 namespace posed::cli {
 namespace {
 
-constexpr const char* kActions[] = {"recenter", "toggle", "save"};
-
 std::string show(const BindingTarget& to) {
   if (!to.goal.empty()) return "goal " + to.goal;
   if (!to.object.empty()) return "object " + to.object;
@@ -34,7 +32,7 @@ void print_binding(const proto::BindingResult& entry) {
   if (b.mode == Binding::Mode::relative) line += "  relative";
   if (b.clutch) line += format("  while button %d is held", b.clutch->button);
   for (const ButtonAction& action : b.buttons)
-    line += format("  button %d: %s", action.button, kActions[static_cast<std::size_t>(action.act)]);
+    line += format("  button %d: %s", action.button, kButtonActionNames[static_cast<std::size_t>(action.act)]);
   if (b.scale != 1.0) line += format("  scale %g", b.scale);
   if (b.filter && b.filter->one_euro)
     line += format("  one-euro %g Hz, beta %g", b.filter->one_euro->min_cutoff_hz, b.filter->one_euro->beta);

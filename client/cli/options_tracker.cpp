@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <tuple>
@@ -204,15 +205,10 @@ std::vector<ButtonAction> read_buttons(const std::vector<std::string>& words) {
     int end = 0;
     const bool number = std::sscanf(word.c_str(), "%d=%n", &action.button, &end) == 1 && end > 0;
     const std::string act = number ? word.substr(static_cast<std::size_t>(end)) : "";
-    if (act == "recenter") {
-      action.act = ButtonAction::Do::recenter;
-    } else if (act == "toggle") {
-      action.act = ButtonAction::Do::toggle;
-    } else if (act == "save") {
-      action.act = ButtonAction::Do::save;
-    } else {
+    const auto name = std::find(kButtonActionNames.begin(), kButtonActionNames.end(), act);
+    if (name == kButtonActionNames.end())
       throw CLI::ValidationError(word + " names no button and what it does: 1=recenter, 1=toggle or 1=save", 1);
-    }
+    action.act = static_cast<ButtonAction::Do>(name - kButtonActionNames.begin());
   }
   return buttons;
 }

@@ -1,7 +1,6 @@
 // The paper's Figures 3 to 11 as scenes: each is balanced, and shows what its figure or its text claims.
 #include <gtest/gtest.h>
 
-
 #include "tests/support/figures.h"
 #include "tests/support/scene_file.h"
 

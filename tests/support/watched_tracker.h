@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <concepts>
 #include <condition_variable>
 #include <memory>
 #include <mutex>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "common/time.h"
+#include "server/tracker/registry.h"
 #include "server/tracker/tracker.h"
 
 namespace posed::test {
@@ -18,6 +20,7 @@ class WatchedTracker {
  public:
   // `make` gets the clock to give to the tracker.
   template <class Make>
+  requires std::invocable<Make, tracker::TimeSource>
   explicit WatchedTracker(Make make) : tracker_(make([this] { return clock_.now(); })) {
     tracker_->start({[this](Frame frame) {
                        const std::lock_guard lock(mutex_);
@@ -30,6 +33,11 @@ class WatchedTracker {
                        wake_.notify_all();
                      }});
   }
+
+  // As --tracker has it: "liberty:usb".
+  explicit WatchedTracker(const std::string& spec)
+      : WatchedTracker(
+            [&](tracker::TimeSource now) { return std::move(*tracker::make_tracker(spec, std::move(now))); }) {}
 
   template <class Condition>
   bool wait(Condition condition) {

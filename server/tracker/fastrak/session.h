@@ -6,6 +6,7 @@
 #include <string>
 
 #include "server/tracker/fastrak/decoder.h"
+#include "server/tracker/fastrak/stations.h"
 #include "server/tracker/session.h"
 
 namespace posed::tracker {
@@ -24,21 +25,15 @@ class FastrakSession final : public Session {
 
   Decoder& decoder() override { return decoder_; }
   bool set_up(Conversation& with) override;
-  void hear(const Reply& reply, Conversation& with) override;
+  void hear(const Reply& reply, Conversation& with) override { stations_.hear(reply, with); }
   void leave(Conversation& with) override;
 
  private:
-  bool ask_stations(Conversation& with);
-  bool prefer(Conversation& with);
   bool configure(int station, Conversation& with) const;
 
   FastrakOptions options_;
   FastrakDecoder decoder_;
-  std::optional<unsigned> stations_;  // bit 0 is station 1: those that are switched on
-  std::optional<unsigned> found_;     // those that were at first
+  FastrakStations stations_;
 };
-
-// The answer to l1, as "1100": a digit a station. Nothing where it is something else.
-std::optional<unsigned> fastrak_stations(const Reply& reply);
 
 }  // namespace posed::tracker

@@ -2,9 +2,9 @@
 // Source: the commands and their order as VRPN's driver has them from the ISOTRAK II manual.
 #pragma once
 
-#include <optional>
 #include <string>
 
+#include "server/tracker/fastrak/stations.h"
 #include "server/tracker/isotrak/decoder.h"
 #include "server/tracker/session.h"
 
@@ -23,17 +23,13 @@ class IsotrakSession final : public Session {
 
   Decoder& decoder() override { return decoder_; }
   bool set_up(Conversation& with) override;
-  void hear(const Reply& reply, Conversation& with) override;
+  void hear(const Reply& reply, Conversation& with) override { stations_.hear(reply, with); }
   void leave(Conversation& with) override;
 
  private:
-  bool ask_stations(Conversation& with);
-  bool prefer(Conversation& with);
-
   IsotrakOptions options_;
   IsotrakDecoder decoder_;
-  std::optional<unsigned> stations_;  // bit 0 is station 1: those that are switched on
-  std::optional<unsigned> found_;     // those that were at first
+  FastrakStations stations_;
 };
 
 }  // namespace posed::tracker

@@ -1,23 +1,12 @@
 // Undo in whatever order: a model of several editors who do, undo and redo at random.
 #include <random>
 
-#include "server/scene/editing.h"
-#include "tests/server/scene/scene_fixture.h"
+#include "tests/server/scene/editing_fixture.h"
 
 namespace posed {
 namespace {
 
-class UndoOrder : public SceneTest {
- protected:
-  static EditBy by(const std::string& name, const std::string& gesture = "") {
-    EditBy who;
-    who.editor = {name, name, name};
-    who.owner = std::hash<std::string>{}(name);
-    who.method = "goal.set";
-    who.gesture = gesture;
-    return who;
-  }
-};
+using UndoOrder = EditingTest;
 
 // Whatever three do in whatever order: somebody can always take back their last step, until all is as it began.
 TEST_F(UndoOrder, EverythingTakenBackIsTheBeginning) {

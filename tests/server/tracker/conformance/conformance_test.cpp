@@ -15,17 +15,12 @@ namespace posed::tracker {
 
 using test::SourcePose;
 using test::TrackerEmulator;
+using test::WatchedTracker;
 
 namespace {
 
 constexpr double kInch = 0.0254;
 const SourcePose kFirst{10.0, -2.5, 3.25, 45.0, -30.0, 15.0}, kSecond{20.0, 8.0, -6.0, -120.0, 10.0, -75.0};
-
-class Watched : public test::WatchedTracker {
- public:
-  explicit Watched(const std::string& spec)
-      : WatchedTracker([&](TimeSource now) { return std::move(*make_tracker(spec, std::move(now))); }) {}
-};
 
 }  // namespace
 
@@ -51,7 +46,7 @@ void Conformance::expect_pose(const Frame& frame, std::size_t index, const Sourc
 
 TEST_P(Conformance, StartsStreamsAndLeavesItQuiet) {
   bed->plug();
-  Watched run(spec());
+  WatchedTracker run(spec());
   ASSERT_TRUE(run.wait_for_frames(60)) << run.status().message;
   EXPECT_EQ(run.status().state, State::streaming);
   EXPECT_EQ(run.status().message, "");
@@ -79,7 +74,7 @@ TEST_P(Conformance, UnitsAndAxes) {
     device.set_pose(2, kSecond);
   });
   bed->plug();
-  Watched run(spec());
+  WatchedTracker run(spec());
   ASSERT_TRUE(run.wait_for_stations(2)) << run.status().message;
   run.stop();
   expect_pose(run.frames().back(), 0, kFirst);
@@ -90,7 +85,7 @@ TEST_P(Conformance, UnitsAndAxes) {
 TEST_P(Conformance, FramesThatStraddleReads) {
   bed->carry_in_pieces(3);
   bed->plug();
-  Watched run(spec());
+  WatchedTracker run(spec());
   ASSERT_TRUE(run.wait_for_frames(30)) << run.status().message;
   run.stop();
   EXPECT_EQ(run.status().bad_bytes, 0u);
@@ -99,7 +94,7 @@ TEST_P(Conformance, FramesThatStraddleReads) {
 
 TEST_P(Conformance, GarbageInTheStream) {
   bed->plug();
-  Watched run(spec());
+  WatchedTracker run(spec());
   ASSERT_TRUE(run.wait_for_frames(20)) << run.status().message;
   std::mt19937 dice(7);
   for (int burst = 0; burst < 10; ++burst) {
@@ -118,7 +113,7 @@ TEST_P(Conformance, GarbageInTheStream) {
 TEST_P(Conformance, AStreamThatACrashLeftBehind) {
   bed->with_tracker([](TrackerEmulator& device) { device.left_streaming(); });
   bed->plug();
-  Watched run(spec());
+  WatchedTracker run(spec());
   ASSERT_TRUE(run.wait_for_frames(20)) << run.status().message;
   run.stop();
   for (const Frame& frame : run.frames()) expect_pose(frame, 0, kFirst);  // none in other units
@@ -126,7 +121,7 @@ TEST_P(Conformance, AStreamThatACrashLeftBehind) {
 
 TEST_P(Conformance, AnErrorLetterFlagsTheSample) {
   bed->plug();
-  Watched run(spec());
+  WatchedTracker run(spec());
   ASSERT_TRUE(run.wait_for_frames(5)) << run.status().message;
   EXPECT_EQ(run.frames().back().samples[0].flags & kFlagError, 0u);
   bed->with_tracker([](TrackerEmulator& device) { device.set_error_letter(1, 'C'); });
@@ -139,7 +134,7 @@ TEST_P(Conformance, AnErrorLetterFlagsTheSample) {
 
 TEST_P(Conformance, UnpluggedAndPluggedInAgain) {
   bed->plug();
-  Watched run(spec());
+  WatchedTracker run(spec());
   for (int i = 0; i < 2; ++i) {
     ASSERT_TRUE(run.wait_for_frames(10)) << run.status().message;
     bed->pull();
@@ -151,7 +146,7 @@ TEST_P(Conformance, UnpluggedAndPluggedInAgain) {
 }
 
 TEST_P(Conformance, PluggedInLater) {
-  Watched run(spec());
+  WatchedTracker run(spec());
   ASSERT_TRUE(run.wait([&] { return !run.last_status().message.empty(); }));
   EXPECT_EQ(run.status().state, State::searching);
   bed->plug();
@@ -160,7 +155,7 @@ TEST_P(Conformance, PluggedInLater) {
 
 TEST_P(Conformance, StopsWhileUnplugged) {
   bed->plug();
-  Watched run(spec());
+  WatchedTracker run(spec());
   ASSERT_TRUE(run.wait_for_frames(5)) << run.status().message;
   bed->pull();
   run.stop();
@@ -169,7 +164,7 @@ TEST_P(Conformance, StopsWhileUnplugged) {
 // The watchdog: silence, then everything anew, in ever longer steps.
 TEST_P(Conformance, AStreamThatDiesIsStartedAnew) {
   bed->plug();
-  Watched run(spec());
+  WatchedTracker run(spec());
   ASSERT_TRUE(run.wait_for_frames(5)) << run.status().message;
   bed->with_tracker([](TrackerEmulator& device) { device.stop_streaming(); });
   ASSERT_TRUE(run.wait_for_state(State::silent));
@@ -180,7 +175,7 @@ TEST_P(Conformance, AStreamThatDiesIsStartedAnew) {
 
 TEST_P(Conformance, SwitchedOffAndOnAtTheSameLine) {
   bed->plug();
-  Watched run(spec());
+  WatchedTracker run(spec());
   ASSERT_TRUE(run.wait_for_frames(5)) << run.status().message;
   bed->with_tracker([](TrackerEmulator& device) { device.power_cycle(); });
   ASSERT_TRUE(run.wait_for_state(State::silent));
@@ -192,7 +187,7 @@ TEST_P(Conformance, SwitchedOffAndOnAtTheSameLine) {
 TEST_P(Conformance, ADeafOneIsToldOf) {
   bed->with_tracker([](TrackerEmulator& device) { device.set_deaf(true); });
   bed->plug();
-  Watched run(spec());
+  WatchedTracker run(spec());
   ASSERT_TRUE(run.wait_for_message("does not answer"));
   ASSERT_TRUE(run.wait_for_state(State::silent));
   bed->with_tracker([](TrackerEmulator& device) { device.set_deaf(false); });
@@ -202,7 +197,7 @@ TEST_P(Conformance, ADeafOneIsToldOf) {
 TEST_P(Conformance, AFrozenOneIsToldOf) {
   bed->with_tracker([](TrackerEmulator& device) { device.set_frozen(true); });
   bed->plug();
-  Watched run(spec());
+  WatchedTracker run(spec());
   ASSERT_TRUE(run.wait_for_message("no data for 2 s"));
   bed->with_tracker([](TrackerEmulator& device) { device.set_frozen(false); });
   ASSERT_TRUE(run.wait_for_frames(5)) << run.status().message;
@@ -211,7 +206,7 @@ TEST_P(Conformance, AFrozenOneIsToldOf) {
 
 TEST_P(Conformance, SensorsComeAndGo) {
   bed->plug();
-  Watched run(spec());
+  WatchedTracker run(spec());
   ASSERT_TRUE(run.wait_for_stations(2)) << run.status().message;
   bed->with_tracker([](TrackerEmulator& device) { device.unplug_sensor(2); });
   ASSERT_TRUE(run.wait_for_stations(1));
@@ -243,7 +238,7 @@ TEST_P(Conformance, ItsCaptureGivesTheSameFramesAgain) {
     frames = run.frames();
   }
   const std::string file = fs::directory_iterator(folder)->path();
-  Watched again("replay:" + file + "@fast");
+  WatchedTracker again("replay:" + file + "@fast");
   ASSERT_TRUE(again.wait_for_message("come to its end after " + std::to_string(frames.size()) + " frames"))
       << again.status().message;
   again.stop();

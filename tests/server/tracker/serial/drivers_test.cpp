@@ -19,12 +19,9 @@ using test::FastrakEmulator;
 using test::LibertyEmulator;
 using test::PtyTestbed;
 
-class Watched : public test::WatchedTracker {
- public:
+struct Watched : test::WatchedTracker {
   Watched(const std::string& kind, const PtyTestbed& bed, const std::string& after = "")
-      : WatchedTracker([&](TimeSource now) {
-          return std::move(*make_tracker(kind + ":" + bed.place() + after, std::move(now)));
-        }) {}
+      : WatchedTracker(kind + ":" + bed.place() + after) {}
 };
 
 struct Carried {

@@ -16,12 +16,7 @@ namespace {
 using test::UsbTestbed;
 using test::UsbTestbedOptions;
 using test::ViperEmulator;
-
-class Watched : public test::WatchedTracker {
- public:
-  explicit Watched(const std::string& spec)
-      : WatchedTracker([&](TimeSource now) { return std::move(*make_tracker(spec, std::move(now))); }) {}
-};
+using test::WatchedTracker;
 
 std::unique_ptr<UsbTestbed> fastrak() {
   UsbTestbedOptions options;
@@ -52,7 +47,7 @@ TEST(FastrakOnUsb, AStallOfEitherEndpointIsGotOver) {
   const auto bed = fastrak();
   ASSERT_TRUE(bed);
   bed->plug();
-  Watched run("fastrak");
+  WatchedTracker run("fastrak");
   for (const int error : {EPIPE, EOVERFLOW, EPIPE}) {
     ASSERT_TRUE(run.wait_for_frames(20)) << run.status().message;
     bed->fail_next_stream_read(error);
@@ -69,7 +64,7 @@ TEST(FastrakOnUsb, WithoutFirmwareTheCureIsTold) {
   const auto bed = UsbTestbed::make(std::move(options), reason);
   ASSERT_TRUE(bed);
   bed->plug();
-  Watched run("fastrak");
+  WatchedTracker run("fastrak");
   ASSERT_TRUE(run.wait_for_message("FastrakUSB.hex"));
   EXPECT_EQ(bed->claims(), 0);
 }
@@ -79,7 +74,7 @@ TEST(ViperOnUsb, ARefusalIsTold) {
   ASSERT_TRUE(bed);
   bed->with<ViperEmulator>([](ViperEmulator& device) { device.set_refusing(7); });
   bed->plug();
-  Watched run("viper");
+  WatchedTracker run("viper");
   ASSERT_TRUE(run.wait_for_message("the tracker refuses command 7: not today"));
   ASSERT_TRUE(run.wait_for_state(State::silent));
   bed->with<ViperEmulator>([](ViperEmulator& device) { device.set_refusing(-1); });
@@ -93,7 +88,7 @@ TEST(ViperOnUsb, WhatIsAskedOfTheDeviceIsToldIt) {
     ASSERT_TRUE(bed);
     bed->with<ViperEmulator>([&](ViperEmulator& device) { device.set_old_hemispheres(old); });
     bed->plug();
-    Watched run("viper");
+    WatchedTracker run("viper");
     ASSERT_TRUE(run.wait_for_stations(2)) << run.status().message;
     Settings settings;
     settings.rate_hz = 120.0;
@@ -132,7 +127,7 @@ TEST(ViperOnUsb, ARefusedSettingIsToldAndTheStreamGoesOn) {
   ASSERT_TRUE(bed);
   bed->with<ViperEmulator>([](ViperEmulator& device) { device.set_refusing(1); });
   bed->plug();
-  Watched run("viper");
+  WatchedTracker run("viper");
   ASSERT_TRUE(run.wait_for_frames(5)) << run.status().message;
   Settings settings;
   settings.attitude_filter = FilterSetting{};
@@ -146,7 +141,7 @@ TEST(ViperOnUsb, BothButtonsAreHeard) {
   const auto bed = viper(64);
   ASSERT_TRUE(bed);
   bed->plug();
-  Watched run("viper");
+  WatchedTracker run("viper");
   for (const std::uint32_t held : {1u, 3u, 2u, 0u}) {
     bed->with<ViperEmulator>([&](ViperEmulator& device) { device.press_buttons(2, held); });
     ASSERT_TRUE(run.wait_for_frame([&](const Frame& frame) {
@@ -160,7 +155,7 @@ TEST(ViperOnUsb, ACommandThatFillsItsPacketsIsEnded) {
   const auto bed = viper(32);
   ASSERT_TRUE(bed);
   bed->plug();
-  Watched run("viper");
+  WatchedTracker run("viper");
   ASSERT_TRUE(run.wait_for_frames(5)) << run.status().message;
   EXPECT_GE(bed->empty_writes(), 4);
 }

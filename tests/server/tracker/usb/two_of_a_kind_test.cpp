@@ -14,12 +14,7 @@ namespace {
 using test::LibertyEmulator;
 using test::UsbTestbed;
 using test::UsbTestbedOptions;
-
-class Watched : public test::WatchedTracker {
- public:
-  explicit Watched(const std::string& spec)
-      : WatchedTracker([&](TimeSource now) { return std::move(*make_tracker(spec, std::move(now))); }) {}
-};
+using test::WatchedTracker;
 
 // A LIBERTY that is told by where its first sensor is: so many inches in front of its source.
 std::unique_ptr<UsbTestbed> liberty(int port, double inches, std::string serial = "") {
@@ -33,7 +28,7 @@ std::unique_ptr<UsbTestbed> liberty(int port, double inches, std::string serial 
   return bed;
 }
 
-bool hears(Watched& run, double inches) {
+bool hears(WatchedTracker& run, double inches) {
   return run.wait_for_frame([&](const Frame& f) { return std::abs(f.samples[0].position.x - 0.0254 * inches) < 1e-5; });
 }
 
@@ -42,7 +37,7 @@ TEST(TwoOfAKind, AreToldApartByPortAndBySerialNumber) {
   ASSERT_TRUE(first && second);
   first->plug();
   second->plug();
-  Watched by_serial("liberty:usb:A17"), by_port("liberty:usb:1-1");
+  WatchedTracker by_serial("liberty:usb:A17"), by_port("liberty:usb:1-1");
   EXPECT_TRUE(hears(by_serial, 20)) << by_serial.status().message;
   EXPECT_TRUE(hears(by_port, 10)) << by_port.status().message;
 }
@@ -52,7 +47,7 @@ TEST(TwoOfAKind, OneThatIsNotThereIsToldWithThoseThatAre) {
   ASSERT_TRUE(first && second);
   first->plug();
   second->plug();
-  Watched run("liberty:usb:B99");
+  WatchedTracker run("liberty:usb:B99");
   ASSERT_TRUE(run.wait_for_message("no LIBERTY with serial number or at port B99 is on USB"));
   EXPECT_NE(run.status().message.find("the LIBERTY HS at port 1-1 is there: --tracker liberty:usb:1-1"),
             std::string::npos)
@@ -68,10 +63,10 @@ TEST(TwoOfAKind, EachKeepsItsOwnOverReplugs) {
   const auto first = liberty(1, 10), second = liberty(2, 20, "A17");
   ASSERT_TRUE(first && second);
   first->plug();
-  Watched one("liberty");
+  WatchedTracker one("liberty");
   ASSERT_TRUE(hears(one, 10)) << one.status().message;
   second->plug();
-  Watched two("liberty");
+  WatchedTracker two("liberty");
   ASSERT_TRUE(hears(two, 20)) << two.status().message;
   for (const bool first_comes_first : {true, false}) {
     first->unplug();
@@ -96,7 +91,7 @@ TEST(TwoOfAKind, EachKeepsItsOwnOverReplugs) {
 TEST(TwoOfAKind, OneThatIsAskedForByNameIsNotTakenByAnother) {
   const auto first = liberty(1, 10), second = liberty(2, 20, "A17");
   ASSERT_TRUE(first && second);
-  Watched any("liberty"), named("liberty:usb:1-1");
+  WatchedTracker any("liberty"), named("liberty:usb:1-1");
   first->plug();
   ASSERT_TRUE(hears(named, 10)) << named.status().message;
   second->plug();
@@ -110,7 +105,7 @@ TEST(TwoOfAKind, AtAnotherPortItIsKnownByItsSerialNumber) {
   const auto bed = liberty(1, 10, "A17"), moved = liberty(3, 30, "A17");  // they outlive the driver
   ASSERT_TRUE(bed && moved);
   bed->plug();
-  Watched run("liberty:usb:A17");
+  WatchedTracker run("liberty:usb:A17");
   ASSERT_TRUE(hears(run, 10)) << run.status().message;
   bed->unplug();
   ASSERT_TRUE(run.wait_for_state(State::searching));

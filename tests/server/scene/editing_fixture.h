@@ -1,0 +1,41 @@
+// Several editors on one scene.
+#pragma once
+
+#include <string>
+
+#include "server/scene/editing.h"
+#include "tests/server/scene/scene_fixture.h"
+
+namespace posed {
+
+class EditingTest : public SceneTest {
+ protected:
+  EditBy by(const std::string& name, const std::string& gesture = "") {
+    EditBy who;
+    who.editor = {name, name, name};
+    who.owner = std::hash<std::string>{}(name);
+    who.t_ns = now;
+    who.method = "goal.set";
+    who.gesture = gesture;
+    return who;
+  }
+  Result<Edited> set(const EditBy& who, const std::string& id, Vec3 position) {
+    return editing.edit(who, [&](Scene& s) { return s.set_goal(goal_edit(id, "right_hand", position), {}); });
+  }
+  template <class F>
+  Result<Edited> edit(const EditBy& who, F change) {
+    return editing.edit(who, [&](Scene& s) -> Result<Edited> { return change(s); });
+  }
+  std::string document() const { return proto::encode_scene(scene.document()); }
+  void solved(double x) {  // as if the solver had moved the figure
+    std::vector<double> q = scene.figures().at("body").q;
+    q[0] = x;
+    scene.settle("body", q);
+  }
+  double pose() const { return scene.figures().at("body").q[0]; }
+
+  Editing editing{scene};
+  Nanoseconds now = 0;
+};
+
+}  // namespace posed
