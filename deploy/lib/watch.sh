@@ -19,10 +19,18 @@ run_step() {
   cat "$tally" >>"$logs/tally"
   row "$step" "$tally" $((SECONDS - begun)) | tee -a "$logs/table"
   if grep -q '^failed' "$tally"; then
-    note "---- the end of $log"
-    tail -n 40 "$log" | sed 's/^/   | /'
+    note "---- what failed, from $log"
+    { what_failed "$log" || true; } | sed 's/^/   | /'
+    note "---- its end"
+    tail -n 15 "$log" | sed 's/^/   | /'
     note "---- just this step: ./deploy/test $step"
   fi
+}
+
+# Where a test, a compiler or a sanitizer complains, and a few lines on: a log's end seldom has it.
+what_failed() {
+  grep -nE -A 6 ': Failure$|^(FAILED|not ok)|^.*(error|runtime error|ERROR):|^SUMMARY: |\*\*\*(Failed|Timeout|Exception|Not Run)|^  ✗|^Traceback' "$1" |
+    cut -c 1-240 | head -n 80
 }
 
 # The log's last line, again and again on a terminal, once a minute elsewhere.

@@ -60,7 +60,7 @@ Result<Edited> Scene::set_figure(FigureEntry entry, IfRevision if_revision) {
   if (const Status checked = check_id(id); !checked) return checked.error();
   if (const auto error = stale(figures_, id, if_revision)) return *error;
   const auto before = figures_.find(id);
-  const Revision revision = next_revision(&Change::figures, figures_, id);
+  const Revision revision = next_figure_revision(id);
 
   if (before != figures_.end()) entry.pins.clear();
   Result<SceneFigure> figure = make_figure(std::move(entry));
@@ -128,7 +128,8 @@ Result<Edited> Scene::set_q(const std::string& id, std::vector<double> q, IfRevi
   if (const Status checked = check_q(*figure.tree, q); !checked) return below("/q", checked.error());
   keep_pose(figure.entry.id);
   figure.q = std::move(q);
-  return Edited{figure.entry.id, count(), ++figure.revision};
+  figure.revision = next_figure_revision(figure.entry.id);
+  return Edited{figure.entry.id, count(), figure.revision};
 }
 
 }  // namespace posed

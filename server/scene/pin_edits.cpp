@@ -50,7 +50,8 @@ Result<Edited> Scene::set_pins(const std::string& id, std::map<std::string, Pin>
   if (const Status complete = complete_pins(pinned); !complete) return complete.error();
   keep_figure(figure.entry.id);
   figure = std::move(pinned);
-  return Edited{figure.entry.id, count(), ++figure.revision};
+  figure.revision = next_figure_revision(figure.entry.id);
+  return Edited{figure.entry.id, count(), figure.revision};
 }
 
 Result<Edited> Scene::pin(const std::string& id, const std::string& segment, std::optional<Pin::Hold> hold,
@@ -69,7 +70,8 @@ Result<Edited> Scene::pin(const std::string& id, const std::string& segment, std
     hold_here(figure, place->segment, pin);
     figure.entry.pins.emplace(name, pin);
   }
-  return Edited{figure.entry.id, count(), ++figure.revision};
+  figure.revision = next_figure_revision(figure.entry.id);
+  return Edited{figure.entry.id, count(), figure.revision};
 }
 
 }  // namespace posed

@@ -149,20 +149,27 @@ class Scene {
   // The scene's after the next edit. What comes under an id begins there, so that no revision ever comes twice under
   // it.
   Revision coming() const { return (open_ ? open_->revision : revision_) + 1; }
-  // The entity's own after the next edit of it: only grows, also where it is removed and made anew in one edit.
+  // The entity's own after the next edit of it. One edit grows it by one, however often it comes to the entity, so that
+  // it is never above the scene's; also where it removes the entity and makes it anew.
   template <class Entity>
   Revision next_revision(std::map<std::string, ChangedEntity<Entity>> Change::*part,
                          const std::map<std::string, Entity>& entities, const std::string& id) const {
-    if (const auto found = entities.find(id); found != entities.end()) return found->second.revision + 1;
-    if (!open_) return coming();
-    const auto& kept = open_->before.*part;
-    const auto removed = kept.find(id);
-    return removed != kept.end() && removed->second.other ? removed->second.other->revision + 1 : coming();
+    const auto found = entities.find(id);
+    const bool here = found != entities.end();
+    if (open_) {
+      const auto& touched = open_->before.*part;
+      if (const auto kept = touched.find(id); kept != touched.end()) {
+        if (kept->second.other) return std::max(here ? found->second.revision : 0, kept->second.other->revision + 1);
+        return here ? found->second.revision : coming();
+      }
+    }
+    return here ? found->second.revision + 1 : coming();
   }
+  Revision next_figure_revision(const std::string& id) const;  // poses set by hand count, too
   template <class Entity>
   void keep(std::map<std::string, ChangedEntity<Entity>> Change::*part, const std::map<std::string, Entity>& entities,
             const std::string& id);
-  void keep_figure(const std::string& id) { keep(&Change::figures, figures_, id); }
+  void keep_figure(const std::string& id);
   void keep_object(const std::string& id) { keep(&Change::objects, objects_, id); }
   void keep_goal(const std::string& id) { keep(&Change::goals, goals_, id); }
   void keep_binding(const std::string& id) { keep(&Change::bindings, bindings_, id); }

@@ -106,6 +106,15 @@ template void Scene::keep<SceneBinding>(Changed<SceneBinding> Change::*, const E
 template void Scene::keep<SceneCamera>(Changed<SceneCamera> Change::*, const Entities<SceneCamera>&,
                                        const std::string&);
 
+void Scene::keep_figure(const std::string& id) {
+  keep(&Change::figures, figures_, id);
+  if (!open_) return;
+  // A pose that was set before in the same edit has counted already.
+  const auto kept = open_->before.figures.find(id);
+  const auto pose = open_->before.poses.find(id);
+  if (kept->second.other && pose != open_->before.poses.end()) kept->second.other->revision = pose->second.revision;
+}
+
 void Scene::keep_pose(const std::string& id) {
   if (!open_) return;
   const SceneFigure& figure = figures_.at(id);
@@ -117,6 +126,15 @@ void Scene::keep_pose(const std::string& id) {
     const SceneFigure& before = *kept->second.other;
     place->second = {before.q, before.pose, 0, true, before.revision, before.posed, 0};
   }
+}
+
+Revision Scene::next_figure_revision(const std::string& id) const {
+  const Revision next = next_revision(&Change::figures, figures_, id);
+  if (!open_) return next;
+  const auto pose = open_->before.poses.find(id);
+  const auto kept = open_->before.figures.find(id);
+  const bool came = kept != open_->before.figures.end() && !kept->second.other;
+  return pose == open_->before.poses.end() || came ? next : pose->second.revision + 1;
 }
 
 Change Scene::commit() {

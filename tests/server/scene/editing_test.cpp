@@ -273,6 +273,17 @@ TEST_F(EditingTest, NoRevisionComesTwiceUnderAnId) {
   look("the undone removal");
   ASSERT_TRUE(set(by("ana"), "g1", {4, 0, 0}));
   look("the last change");
+  // One edit that came to the goal often took it beyond the scene's revision, where what came after began.
+  ASSERT_TRUE(edit(by("ana"), [](Scene& s) {
+    for (double x = 0; x < 9; ++x) EXPECT_TRUE(s.set_goal(goal_edit("g1", "right_hand", {x, 0, 0}), {}));
+    return s.set_goal(goal_edit("g1"), {});
+  }));
+  look("many changes in one edit");
+  ASSERT_TRUE(edit(by("ana"), remove));
+  for (double x = 0; x < 9; ++x) {
+    ASSERT_TRUE(set(by("ben"), "g1", {x, 0, 0}));
+    look("the goal made anew, and its changes");
+  }
 }
 
 // Its goal did not exist any more in any state in between: ben could not have gone back.

@@ -1,4 +1,5 @@
 // Undo in whatever order: a model of several editors who do, undo and redo at random.
+#include <algorithm>
 #include <random>
 
 #include "tests/server/scene/editing_fixture.h"
@@ -88,6 +89,12 @@ TEST_F(UndoOrder, EverythingTakenBackIsTheBeginning) {
         (void)own.undo(who, own.history().steps()[any].number);
       }
       if (pick(6) == 0) (void)own.redo(who);
+      const auto above = [&](const auto& entities) {
+        return std::any_of(entities.begin(), entities.end(),
+                           [&](const auto& entry) { return entry.second.revision > scene.revision(); });
+      };
+      ASSERT_FALSE(above(scene.figures()) || above(scene.goals()) || above(scene.objects()) || above(scene.bindings()))
+          << "an entity's revision is above the scene's, seed " << seed << ", edit " << i;
     }
     for (bool moved = true; moved;) {
       moved = false;
