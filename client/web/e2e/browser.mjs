@@ -13,8 +13,8 @@ export function launch() {
 }
 
 /** A page of a person of its own. What it complains about and what it asks of other hosts is noted. */
-export async function openPage(browser, url, { viewport = kSize, colorScheme = "dark", user = "", hints = false, waits = true } = {}) {
-  const context = await browser.newContext({ viewport, colorScheme, acceptDownloads: true });
+export async function openPage(browser, url, { viewport = kSize, colorScheme = "dark", user = "", hints = false, waits = true, deviceScaleFactor = 1 } = {}) {
+  const context = await browser.newContext({ viewport, colorScheme, deviceScaleFactor, acceptDownloads: true });
   const settings = JSON.stringify({ user, hintsDone: !hints });
   await context.addInitScript((kept) => localStorage.getItem("posed.settings") ?? localStorage.setItem("posed.settings", kept), settings);
   const page = await context.newPage();
