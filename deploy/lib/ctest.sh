@@ -3,11 +3,12 @@
 
 # ctest_in PRESET [CTEST_OPTION...]
 ctest_in() {
-  local preset=$1 out rc=0
+  local preset=$1 out rc=0 seconds=300
   shift
+  [[ $preset != *san ]] || seconds=600 # sanitizers make a program several times as slow
   out=$LOGS/$preset-ctest.txt
   headline "ctest in build/$preset $*"
-  ctest --test-dir "build/$preset" --output-on-failure --no-tests=error --parallel "$(nproc)" --timeout 600 "$@" 2>&1 |
+  ctest --test-dir "build/$preset" --output-on-failure --no-tests=error --parallel "$(nproc)" --timeout "$seconds" "$@" 2>&1 |
     tee "$out" || rc=$?
   ctest_tally "$out" >"$out.tally"
   gtest_skips "build/$preset/Testing/Temporary/LastTest.log" >>"$out.tally"
