@@ -33,6 +33,17 @@ class EditingTest : public SceneTest {
     scene.settle("body", q);
   }
   double pose() const { return scene.figures().at("body").q[0]; }
+  // The last step, undone, leaves `before`; done again, what stands now.
+  void expect_back_and_forth(const EditBy& who, const std::string& before) {
+    const std::string after = document();
+    for (int i = 0; i < 3; ++i) {
+      ASSERT_TRUE(editing.undo(who));
+      EXPECT_EQ(document(), before);
+      const Result<Done> again = editing.redo(who);
+      ASSERT_TRUE(again) << again.error().message;
+      EXPECT_EQ(document(), after);
+    }
+  }
 
   Editing editing{scene};
   Nanoseconds now = 0;

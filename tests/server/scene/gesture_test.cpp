@@ -84,13 +84,7 @@ TEST_F(GestureTest, AGestureThatMakesAFigureAnewGivesTheOldOnesPoseBack) {
     q[0] = 2.0;
     return s.set_q("other", q, {});
   }));
-  const std::string after = document();
-  for (int i = 0; i < 3; ++i) {
-    ASSERT_TRUE(editing.undo(by("ana")));
-    EXPECT_EQ(document(), before);
-    ASSERT_TRUE(editing.redo(by("ana"))) << editing.redo(by("ana")).error().message;
-    EXPECT_EQ(document(), after);
-  }
+  expect_back_and_forth(by("ana"), before);
   for (const char* name : {"ana", "ben", "ana"}) {
     const Result<Done> undone = editing.undo(by(name));
     EXPECT_TRUE(undone) << name << ": " << undone.error().message;
@@ -158,13 +152,7 @@ TEST_F(GestureTest, AGestureThatPosesAFigureAndRemovesItGivesTheFirstPoseBack) {
   q[0] = 2.0;
   ASSERT_TRUE(edit(by("ana", "drag"), [&](Scene& s) { return s.set_q("body", q, {}); }));
   ASSERT_TRUE(edit(by("ana", "drag"), [](Scene& s) { return s.remove_figure("body", {}); }));
-  const std::string after = document();
-  for (int i = 0; i < 3; ++i) {
-    ASSERT_TRUE(editing.undo(by("ana")));
-    EXPECT_EQ(document(), before);
-    ASSERT_TRUE(editing.redo(by("ana"))) << editing.redo(by("ana")).error().message;
-    EXPECT_EQ(document(), after);
-  }
+  expect_back_and_forth(by("ana"), before);
   ASSERT_TRUE(editing.undo(by("ana")));
   EXPECT_TRUE(editing.undo(by("ben")));
 }
