@@ -29,7 +29,7 @@ run_step() {
 
 # Where a test, a compiler or a sanitizer complains, and a few lines on: a log's end seldom has it.
 what_failed() {
-  grep -nE -A 6 ': Failure$|^(FAILED|not ok)|^.*(error|runtime error|ERROR):|^SUMMARY: |\*\*\*(Failed|Timeout|Exception|Not Run)|^  ✗|^Traceback' "$1" |
+  grep -nE -A 6 ': Failure$|^(FAILED|FAIL\b|not ok)|(error|runtime error|ERROR):|^SUMMARY: |\*\*\*(Failed|Timeout|Exception|Not Run)|^  ✗|^Traceback' "$1" |
     cut -c 1-240 | head -n 80
 }
 

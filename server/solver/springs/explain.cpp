@@ -145,7 +145,7 @@ void Explainer::report_posture(const Plan& plan, const SpringGoal& goal, std::si
     const Link& link = plan.links[static_cast<std::size_t>(rest.link)];
     if (link.dofs == 0) continue;
     const std::size_t first = link.first_dof();
-    std::fill(sprung_.begin(), sprung_.end(), 0.0);
+    std::fill_n(sprung_.begin() + static_cast<std::ptrdiff_t>(first), link.dofs, 0.0);
     // The rest's weight has the lever in it.
     const double cost = probe_.pull(plan, rest, sprung_);
     double off = 0.0;

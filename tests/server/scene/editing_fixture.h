@@ -26,6 +26,12 @@ class EditingTest : public SceneTest {
   Result<Edited> edit(const EditBy& who, F change) {
     return editing.edit(who, [&](Scene& s) -> Result<Edited> { return change(s); });
   }
+  // An edit of a figure's pose.
+  Result<Edited> move(const EditBy& who, double x, const std::string& figure = "body") {
+    std::vector<double> q = scene.figures().at(figure).q;
+    q[0] = x;
+    return edit(who, [&](Scene& s) { return s.set_q(figure, q, {}); });
+  }
   std::string document() const { return proto::encode_scene(scene.document()); }
   void solved(double x) {  // as if the solver had moved the figure
     std::vector<double> q = scene.figures().at("body").q;

@@ -74,10 +74,9 @@ TEST_F(GestureTest, AGestureGoesOnThoughOthersEditWhatHasNothingToDoWithIt) {
 // brought the new one's, under a number that others' steps did not know.
 TEST_F(GestureTest, AGestureThatMakesAFigureAnewGivesTheOldOnesPoseBack) {
   ASSERT_TRUE(edit(by("ana"), [&](Scene& s) { return s.set_figure(tempus_entry("other"), {}); }));
-  std::vector<double> q = scene.figures().at("other").q;
-  q[0] = 1.0;
-  ASSERT_TRUE(edit(by("ben"), [&](Scene& s) { return s.set_q("other", q, {}); }));
+  ASSERT_TRUE(move(by("ben"), 1.0, "other"));
   const std::string before = document();
+  std::vector<double> q = scene.figures().at("other").q;
   ASSERT_TRUE(edit(by("ana", "drag"), [](Scene& s) { return s.remove_figure("other", {}); }));
   ASSERT_TRUE(edit(by("ana", "drag"), [&](Scene& s) -> Result<Edited> {
     EXPECT_TRUE(s.set_figure(tempus_entry("other"), {}));
@@ -93,18 +92,11 @@ TEST_F(GestureTest, AGestureThatMakesAFigureAnewGivesTheOldOnesPoseBack) {
 
 // The gesture's goal remembered the pose of ben's step, which was not there any more when the gesture set its own.
 TEST_F(GestureTest, AGesturesPoseGivesBackWhatItHasReplaced) {
-  std::vector<double> q = scene.figures().at("body").q;
-  const auto moved = [&](double x) {
-    return [&q, x](Scene& s) {
-      std::vector<double> other = q;
-      other[0] = x;
-      return s.set_q("body", other, {});
-    };
-  };
-  ASSERT_TRUE(edit(by("ben"), moved(1.0)));
+  const std::vector<double> q = scene.figures().at("body").q;
+  ASSERT_TRUE(move(by("ben"), 1.0));
   ASSERT_TRUE(set(by("ana", "drag"), "g1", {1, 0, 0}));
   ASSERT_TRUE(editing.undo(by("ben")));
-  ASSERT_TRUE(edit(by("ana", "drag"), moved(2.0)));
+  ASSERT_TRUE(move(by("ana", "drag"), 2.0));
   ASSERT_EQ(editing.history().steps().size(), 2u);
   ASSERT_TRUE(editing.undo(by("ana")));
   EXPECT_EQ(scene.figures().at("body").q, q);
@@ -112,14 +104,9 @@ TEST_F(GestureTest, AGesturesPoseGivesBackWhatItHasReplaced) {
 
 // Ben's pose was undone after the gesture had changed the figure: undo brought it back.
 TEST_F(GestureTest, AGestureThatChangesAFigureAndRemovesItGivesTheLastPoseBack) {
-  std::vector<double> q = scene.figures().at("body").q;
-  const auto moved = [&q](double x) {
-    q[0] = x;
-    return [&q](Scene& s) { return s.set_q("body", q, {}); };
-  };
-  ASSERT_TRUE(edit(by("ben"), moved(1.0)));
+  ASSERT_TRUE(move(by("ben"), 1.0));
   const std::string before = document();
-  ASSERT_TRUE(edit(by("ben"), moved(2.0)));
+  ASSERT_TRUE(move(by("ben"), 2.0));
   ASSERT_TRUE(edit(by("ana", "drag"), [](Scene& s) { return s.set_figure(tempus_entry("body", 1.8), {}); }));
   ASSERT_TRUE(editing.undo(by("ben")));
   ASSERT_TRUE(edit(by("ana", "drag"), [](Scene& s) { return s.remove_figure("body", {}); }));
@@ -130,12 +117,9 @@ TEST_F(GestureTest, AGestureThatChangesAFigureAndRemovesItGivesTheLastPoseBack) 
 }
 
 TEST_F(GestureTest, AGestureThatPosesAFigureChangesItAndRemovesItGivesTheFirstPoseBack) {
-  std::vector<double> q = scene.figures().at("body").q;
-  q[0] = 1.0;
-  ASSERT_TRUE(edit(by("ben"), [&](Scene& s) { return s.set_q("body", q, {}); }));
+  ASSERT_TRUE(move(by("ben"), 1.0));
   const std::string before = document();
-  q[0] = 2.0;
-  ASSERT_TRUE(edit(by("ana", "drag"), [&](Scene& s) { return s.set_q("body", q, {}); }));
+  ASSERT_TRUE(move(by("ana", "drag"), 2.0));
   ASSERT_TRUE(edit(by("ana", "drag"), [](Scene& s) { return s.set_figure(tempus_entry("body", 1.8), {}); }));
   ASSERT_TRUE(edit(by("ana", "drag"), [](Scene& s) { return s.remove_figure("body", {}); }));
   ASSERT_EQ(editing.history().steps().size(), 2u);
@@ -145,12 +129,9 @@ TEST_F(GestureTest, AGestureThatPosesAFigureChangesItAndRemovesItGivesTheFirstPo
 }
 
 TEST_F(GestureTest, AGestureThatPosesAFigureAndRemovesItGivesTheFirstPoseBack) {
-  std::vector<double> q = scene.figures().at("body").q;
-  q[0] = 1.0;
-  ASSERT_TRUE(edit(by("ben"), [&](Scene& s) { return s.set_q("body", q, {}); }));
+  ASSERT_TRUE(move(by("ben"), 1.0));
   const std::string before = document();
-  q[0] = 2.0;
-  ASSERT_TRUE(edit(by("ana", "drag"), [&](Scene& s) { return s.set_q("body", q, {}); }));
+  ASSERT_TRUE(move(by("ana", "drag"), 2.0));
   ASSERT_TRUE(edit(by("ana", "drag"), [](Scene& s) { return s.remove_figure("body", {}); }));
   expect_back_and_forth(by("ana"), before);
   ASSERT_TRUE(editing.undo(by("ana")));
