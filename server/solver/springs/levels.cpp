@@ -16,7 +16,6 @@ using springs::Term;
 
 namespace {
 
-constexpr double kStiff = 1e3;  // the heaviest goal of a level against the heaviest of the next
 // Where a limb is stretched to its end, shifts alone do not bring it back: it takes more stiffness, in steps.
 constexpr double kStiffer = 10.0, kSlow = 0.25;
 constexpr int kStiffenings = 2;
@@ -27,16 +26,40 @@ constexpr int kRounds = 12;
 
 void SpringSolver::balance_levels(std::span<const SpringGoal> goals, const SpringOptions& options,
                                   const Stop& should_stop, SolveReport& report) {
-  const auto level_of = [&](const Term& term) { return goals[static_cast<std::size_t>(term.goal)].priority; };
   SpringOptions now = options;
+  now.cold = now.explore = false;
+  if (options.cold) search_levels(goals, options, should_stop, report);
+  const bool far = take_levels(goals, now, should_stop, report);
+  if (options.explore && !options.cold && far && report.status != SolveStatus::deadline)
+    explore_levels(goals, now, should_stop, report);
+}
+
+double SpringSolver::heaviest(std::span<const SpringGoal> goals, int level) {
+  double most = 1e-6;
+  for (const SpringGoal& goal : goals) {
+    if (goal.priority == level && pulls(goal)) most = std::max(most, goal.weight);
+  }
+  return most;
+}
+
+// As the goals say, with nothing held yet.
+void SpringSolver::begin_levels(std::span<const SpringGoal> goals, const SpringOptions& options) {
+  std::copy(terms_.begin(), terms_.end(), plan_.terms.begin());
+  set_springs(goals);
+  set_bounds(options);
+  pin_roots(goals);
+}
+
+bool SpringSolver::take_levels(std::span<const SpringGoal> goals, const SpringOptions& options, const Stop& should_stop,
+                               SolveReport& report) {
+  const auto level_of = [&](const Term& term) { return goals[static_cast<std::size_t>(term.goal)].priority; };
+  bool far = false;
   double before = 0.0;  // the heaviest goal of the level before
+  begin_levels(goals, options);
   for (Term& term : plan_.terms) term.weight = 0.0;
   for (const int level : levels_) {
     set_springs(goals, &level);
-    double heaviest = 1e-6;
-    for (const SpringGoal& goal : goals) {
-      if (goal.priority == level && pulls(goal)) heaviest = std::max(heaviest, goal.weight);
-    }
+    const double heaviest = SpringSolver::heaviest(goals, level);
     for (std::size_t i = 0; i < terms_.size(); ++i) {
       if (level_of(terms_[i]) == level)
         plan_.terms[i].weight = terms_[i].weight;
@@ -49,10 +72,9 @@ void SpringSolver::balance_levels(std::span<const SpringGoal> goals, const Sprin
     int stiffenings = 0;
     for (int round = 0; round < kRounds; ++round) {
       if (round == 0)
-        balance(now, should_stop, report);
+        far = balance(options, should_stop, report) || far;
       else
-        descend(tuning(now), should_stop, report);
-      now.cold = now.explore = false;
+        descend(tuning(options), should_stop, report);
       if (!holds || report.status == SolveStatus::deadline) break;
       const double gave = shift_held(goals, level);
       if (gave <= kHeldPlace) break;
@@ -77,6 +99,7 @@ void SpringSolver::balance_levels(std::span<const SpringGoal> goals, const Sprin
   // As they are told about.
   set_springs(goals);
   set_bounds(options);
+  return far;
 }
 
 // Shifts the springs by what they gave way, m; returns the most.

@@ -13,14 +13,11 @@
 
 namespace posed {
 
-using springs::State;
 using springs::Tuning;
 
 namespace {
 
-constexpr double kFar = 0.02;         // m, weighted RMS: a start from farther away takes the long way (go_far)
-constexpr double kReachedRms = 1e-3;  // m
-constexpr double kClearlyBetter = 0.7;
+constexpr double kFar = 0.02;  // m, weighted RMS: a start from farther away takes the long way (go_far)
 constexpr double kNoBound = 1e9;
 constexpr double kBalance = 1e-5;         // SolveReport::balance_error
 constexpr double kReachedExactly = 1e-6;  // m, weighted RMS
@@ -28,12 +25,6 @@ constexpr double kOutside = 1e-10;        // rad or m beyond a limit that are a 
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
-}
-
-// Of one size: keeps the memory.
-void copy(const State& from, State& to) {
-  std::copy(from.turns.begin(), from.turns.end(), to.turns.begin());
-  std::copy(from.more.begin(), from.more.end(), to.more.begin());
 }
 
 }  // namespace
@@ -126,7 +117,7 @@ void SpringSolver::prepare(std::span<const SpringGoal> goals) {
   std::sort(levels_.begin(), levels_.end());
   levels_.erase(std::unique(levels_.begin(), levels_.end()), levels_.end());
   plan_.terms = terms_;
-  for (State* state : {&state_, &start_, &kept_, &origin_, &posture_}) springs::resize(plan_, *state);
+  for (springs::State* state : {&state_, &start_, &kept_, &origin_, &posture_}) springs::resize(plan_, *state);
   angles_.resize(plan_);
   std::size_t rests = plan_.links.size();
   for (const SpringGoal& goal : goals) {
@@ -138,6 +129,9 @@ void SpringSolver::prepare(std::span<const SpringGoal> goals) {
   starts_ = springs::make_starts(plan_);
   lanes_.assign(starts_.begin(), starts_.begin() + springs::kStarts);
   held_.resize(terms_.size());
+  sums_.resize(levels_.size());
+  other_sums_.resize(levels_.size());
+  slope_.resize(plan_.dofs.size());
   kernel_->prepare(plan_);
   explainer_->prepare(plan_, goals.size());
   prepared_ = true;
@@ -154,12 +148,13 @@ void SpringSolver::solve(std::span<const SpringGoal> goals, const SpringOptions&
     if (options.accuracy == 0.0) confine_all(f, out.q[f]);  // a stream's next start is an answer, and inside
     angles_.read(*figures_[f], static_cast<int>(f), plan_, out.q[f], state_);
   }
+  springs::copy(state_, start_);
   set_bounds(options);
   springs::confine(plan_, state_);
   pin_roots(goals);
   set_terms(goals);
   set_springs(goals);
-  copy(state_, start_);
+  springs::copy(state_, start_);
 
   if (!plan_.links.empty()) {
     if (levels_.size() > 1)
@@ -202,7 +197,7 @@ void SpringSolver::confine_all(std::size_t figure, std::span<double> q) {
   Whole& whole = whole_[figure];
   const int index = static_cast<int>(figure);
   whole.angles.read(*figures_[figure], index, whole.plan, q, whole.state);
-  copy(whole.state, whole.inside);
+  springs::copy(whole.state, whole.inside);
   springs::confine(whole.plan, whole.inside);
   for (std::size_t k = 0; k < whole.plan.dofs.size(); ++k) {
     if (std::abs(whole.state.turns[k] - whole.inside.turns[k]) > kOutside) return write_whole(figure, q);
@@ -223,7 +218,7 @@ void SpringSolver::set_bounds(const SpringOptions& options) {
     const springs::Dof& dof = plan_.dofs[j];
     plan_.least[j] = dof.min, plan_.most[j] = dof.max;
     if (dof.kind == springs::DofKind::of_root || options.most_turn >= kNoBound) continue;
-    const double turn = std::clamp(state_.turns[j], dof.min, dof.max);
+    const double turn = std::clamp(start_.turns[j], dof.min, dof.max);
     plan_.least[j] = std::max(dof.min, turn - options.most_turn);
     plan_.most[j] = std::min(dof.max, turn + options.most_turn);
   }
@@ -303,15 +298,19 @@ springs::Answer SpringSolver::descend(const Tuning& tuning, const Stop& should_s
   return answer;
 }
 
-void SpringSolver::balance(const SpringOptions& options, const Stop& should_stop, SolveReport& report) {
+bool SpringSolver::balance(const SpringOptions& options, const Stop& should_stop, SolveReport& report) {
   const double sum = weights();
-  if (options.cold) return search(options, should_stop, report);
+  if (options.cold) {
+    search(options, should_stop, report);
+    return true;
+  }
   Tuning near = tuning(options);
   near.most_start = sum * kFar * kFar;
-  if (!descend(near, should_stop, report).too_far) return;
+  if (!descend(near, should_stop, report).too_far) return false;
   go_far(options, should_stop, report);
   if (options.explore && report.status != SolveStatus::deadline && cost_ > sum * kReachedRms * kReachedRms)
     explore(options, should_stop, report);
+  return true;
 }
 
 // A goal far away: first held back to the start pose by weak springs, so that of all ways the shortest is found, with
@@ -326,52 +325,6 @@ void SpringSolver::go_far(const SpringOptions& options, const Stop& should_stop,
   descend(held, should_stop, report);
   let_go_of_start();
   if (report.status != SolveStatus::deadline) descend(t, should_stop, report);
-}
-
-// From the middle of all ranges; where that leads nowhere, from many starts side by side.
-void SpringSolver::search(const SpringOptions& options, const Stop& should_stop, SolveReport& report) {
-  const double sum = weights(), reached = sum * kReachedRms * kReachedRms;
-  copy(state_, origin_);
-  springs::place_middle(plan_, starts_[0], state_);
-  Tuning t = tuning(options);
-  t.by_effort = false;
-  t.align = true;
-  t.damping = 0.03;
-  t.patience = 5;
-  const springs::Answer first = descend(t, should_stop, report);
-  if (first.stopped) return;
-  Tuning polish = tuning(options);
-  polish.by_effort = false;
-  polish.damping = 1e-3;
-  if (cost_ <= reached) {
-    if (cost_ > t.enough) descend(polish, should_stop, report);
-    return;
-  }
-  const double cost = cost_;
-  springs::place_starts(plan_, origin_, starts_, lanes_);
-  Tuning many = t;
-  many.damping = 0.1;
-  many.iterations = std::min(options.iterations, 60);
-  many.patience = 8;
-  many.patience_gain = 0.2;
-  many.enough = std::max(t.enough, sum * 1e-8);
-  const springs::Answer found = kernel_->search(plan_, many, should_stop, lanes_);
-  report.iterations += found.iterations;
-  if (found.cost < cost) copy(lanes_[0], state_);
-  descend(polish, should_stop, report);
-  if (found.stopped) report.status = SolveStatus::deadline;
-}
-
-void SpringSolver::explore(const SpringOptions& options, const Stop& should_stop, SolveReport& report) {
-  copy(state_, kept_);
-  const double cost = cost_;
-  const SolveStatus status = report.status;
-  search(options, should_stop, report);
-  report.branch_changed = cost_ < kClearlyBetter * cost;
-  if (report.branch_changed) return;
-  copy(kept_, state_);
-  cost_ = cost;
-  report.status = status;
 }
 
 }  // namespace posed

@@ -79,6 +79,14 @@ class SpringSolver {
     std::array<double, 3> left{0.0, 0.0, 0.0};  // errors that a level of higher priority could not meet
   };
 
+  struct Level {
+    double weight = 0.0, cost = 0.0;  // sums over its goals
+  };
+  static constexpr double kReachedRms = 1e-3;  // m, weighted: better is no other start than what reaches this
+  static constexpr double kStiff = 1e3;        // the heaviest goal of a level against the heaviest of the next
+  static double heaviest(std::span<const SpringGoal> goals, int level);
+  static bool clearly_better(std::span<const Level> now, std::span<const Level> before);
+
   struct Whole {  // a figure with all its joints
     springs::Plan plan;
     springs::State state, inside;
@@ -99,11 +107,19 @@ class SpringSolver {
   double weights() const;
   springs::Tuning tuning(const SpringOptions& options) const;
 
-  // Ways to the balance, from state_ to state_.
+  // Ways to the balance, from state_ to state_. True: the start was far away.
   void balance_levels(std::span<const SpringGoal> goals, const SpringOptions& options, const Stop& should_stop,
                       SolveReport& report);
+  void begin_levels(std::span<const SpringGoal> goals, const SpringOptions& options);
+  bool take_levels(std::span<const SpringGoal> goals, const SpringOptions& options, const Stop& should_stop,
+                   SolveReport& report);
+  void explore_levels(std::span<const SpringGoal> goals, const SpringOptions& options, const Stop& should_stop,
+                      SolveReport& report);
+  void search_levels(std::span<const SpringGoal> goals, const SpringOptions& options, const Stop& should_stop,
+                     SolveReport& report);
+  void sum_levels(std::span<const SpringGoal> goals, std::vector<Level>& levels);
   double shift_held(std::span<const SpringGoal> goals, int level);
-  void balance(const SpringOptions& options, const Stop& should_stop, SolveReport& report);
+  bool balance(const SpringOptions& options, const Stop& should_stop, SolveReport& report);
   void go_far(const SpringOptions& options, const Stop& should_stop, SolveReport& report);
   void search(const SpringOptions& options, const Stop& should_stop, SolveReport& report);
   void explore(const SpringOptions& options, const Stop& should_stop, SolveReport& report);
@@ -122,6 +138,8 @@ class SpringSolver {
   std::vector<int> levels_;                        // priorities in use, in their order
   std::vector<springs::Term> terms_;               // of all goals; plan_.terms has them as the level sees them
   std::vector<Held> held_;                         // one a term
+  std::vector<Level> sums_, other_sums_;           // one a level
+  std::vector<double> slope_;                      // one a degree of freedom
   std::vector<springs::State> starts_, lanes_;
   springs::State state_, start_, kept_, origin_, posture_;
   springs::JointAngles angles_;

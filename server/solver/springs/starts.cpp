@@ -43,6 +43,11 @@ void resize(const Plan& plan, State& state) {
   state.more.assign(plan.more, 0.0);
 }
 
+void copy(const State& from, State& to) {
+  std::copy(from.turns.begin(), from.turns.end(), to.turns.begin());
+  std::copy(from.more.begin(), from.more.end(), to.more.begin());
+}
+
 std::vector<State> make_starts(const Plan& plan) {
   const Spread spread;
   std::vector<State> starts(kStarts + 1);

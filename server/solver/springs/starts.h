@@ -10,6 +10,7 @@
 namespace posed::springs {
 
 void resize(const Plan& plan, State& state);
+void copy(const State& from, State& to);  // of one size: keeps the memory
 
 // kStarts + 1 poses, always the same for one plan: the first in the middle of all ranges, from where most balances are
 // found, the others spread over their inner part. Roots are not set.

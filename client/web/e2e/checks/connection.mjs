@@ -16,11 +16,11 @@ async function survives({ page, daemon }) {
   const from = await project(page, "front", (await state(page)).goals[hand].target);
   await page.mouse.move(from.x, from.y);
   await page.mouse.down();
-  await page.mouse.move(from.x + 30, from.y - 40, { steps: 5 });
+  await page.mouse.move(from.x + 50, from.y - 80, { steps: 5 });
   await page.mouse.up();
   const held = (await state(page)).goals[hand].target;
   const shown = await project(page, "front", held);
-  assert.ok(Math.hypot(shown.x - from.x - 30, shown.y - from.y + 40) < 3, "the cube follows the hand without a daemon");
+  assert.ok(Math.hypot(shown.x - from.x - 50, shown.y - from.y + 80) < 3, "the cube follows the hand without a daemon");
   await until(async () => /wait/.test(await page.getByTestId("waiting").textContent()) && (await state(page)).waiting > 0, "the edit to be seen waiting");
   // Refused sockets are all that the page may complain of meanwhile.
   await daemon.start();

@@ -100,5 +100,88 @@ TEST(Levels, OrientationsAndRelativeGoalsAreHeldToo) {
   for (std::size_t g = 0; g < 3; ++g) EXPECT_LT(b.error(both, g), b.error(alone, g) + 1e-6) << g;
 }
 
+// The scene "standing": feet pinned, a mild balance. A hand that is pulled in front of the chest is bent out of the way
+// by the arm's limits where it comes from below; raised sidewards it gets there.
+struct Standing : SpringBench {
+  explicit Standing(const Vec3& hand) : SpringBench(test::human()) {
+    BalanceSpring balance;
+    balance.margin = 0.02;
+    for (const char* foot : {"left_foot", "right_foot"}) {
+      add(foot, PoseSpring{touch(foot), quat_identity()}).priority = kPinPriority;
+      for (const Vec3& corner : {Vec3(0, 0.04, 0), Vec3(0, -0.04, 0), Vec3(-0.26, 0.04, 0), Vec3(-0.26, -0.04, 0)})
+        balance.support.push_back({goals.back().at.segment, goals.back().at.point + corner});
+    }
+    add("lower_torso", balance, 1.0);
+    pull("right_hand", hand);
+  }
+};
+
+// Under pins no other start was tried: the answer stayed in the first valley, 20 mm off balance.
+TEST(Levels, OtherStartsAreTriedUnderPinsToo) {
+  int changed = 0;
+  for (const double z : {1.1, 1.15, 1.2}) {
+    Standing b({0.0, -0.035, z});
+    const double stays = b.cost(b.solve().q);
+    b.options.explore = true;
+    const SpringPose explored = b.solve();
+    const double found = b.cost(explored.q);
+    for (const std::size_t pin : {0, 1}) EXPECT_LT(b.error(explored, pin), 1e-6);
+    EXPECT_LT(test::worst_limit(b.figures, explored.q), 1e-9);
+    if (explored.report.branch_changed) {
+      ++changed;
+      EXPECT_LT(found, 0.7 * stays);
+    }
+  }
+  EXPECT_GT(changed, 0);
+}
+
+// Strictly by priority: a start that serves the first level worse does not win by the second.
+TEST(Levels, AnotherStartWinsByTheFirstLevelThatItChanges) {
+  std::mt19937 random(73);
+  int changed = 0;
+  for (int n = 0; n < 60; ++n) {
+    SpringBench b(test::human());
+    b.start = {test::random_q(random, *b.figures[0])};
+    for (const int priority : {0, 0, 0, 1, 1, 2}) {
+      b.goals.push_back(test::random_goal(random, b.figures, 0, 1.2));
+      b.goals.back().priority = priority;
+    }
+    const SpringPose stays = b.solve();
+    b.options.explore = true;
+    const SpringPose explored = b.solve();
+    if (!explored.report.branch_changed) {
+      EXPECT_TRUE(test::same_bytes(stays.q, explored.q)) << n;
+      continue;
+    }
+    ++changed;
+    bool decided = false;
+    for (const int level : {0, 1, 2}) {
+      double before = 0.0, after = 0.0;
+      for (const SpringGoal& goal : b.goals) {
+        if (goal.priority != level) continue;
+        before += test::cost_of(b.figures, std::span(&goal, 1), stays.q);
+        after += test::cost_of(b.figures, std::span(&goal, 1), explored.q);
+      }
+      if (decided) continue;
+      EXPECT_LT(after, before + 1e-3 * before + 1e-7) << n << " level " << level;
+      decided = after < 0.7 * before;
+    }
+    EXPECT_TRUE(decided) << n;
+  }
+  EXPECT_GT(changed, 0);
+}
+
+TEST(Levels, AColdSolveSearchesForAllOfThem) {
+  int reached = 0;
+  for (const double z : {1.1, 1.15, 1.2, 1.3}) {
+    Standing b({0.0, -0.035, z});
+    b.options.cold = true;
+    const SpringPose out = b.solve();
+    for (const std::size_t pin : {0, 1}) EXPECT_LT(b.error(out, pin), 1e-6);
+    reached += b.cost(out.q) < 1e-8;
+  }
+  EXPECT_EQ(reached, 4);
+}
+
 }  // namespace
 }  // namespace posed
