@@ -226,7 +226,10 @@ Result<Edited> Scene::set_binding(const BindingEdit& edit, IfRevision if_revisio
   Result<SceneBinding> made = make_binding(std::move(binding));
   if (!made) return made.error();
   made->revision = next_revision(&Change::bindings, bindings_, id);
-  if (before != bindings_.end() && before->second.binding.to != made->binding.to) let_go(before->second);
+  // An axis that is followed no more stays where the sensor left it, too.
+  if (before != bindings_.end() &&
+      (before->second.binding.to != made->binding.to || before->second.binding.axes != made->binding.axes))
+    let_go(before->second);
   const Revision revision = made->revision;
   keep_binding(id);
   bindings_.insert_or_assign(id, std::move(*made));

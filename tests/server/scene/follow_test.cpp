@@ -53,6 +53,19 @@ TEST_F(Follow, AxesLeftOutStayWhereTheDocumentHasThem) {
   EXPECT_EQ(target("g1"), Vec3(1, -0.3, 3));
 }
 
+// It sprang back to where the document had it with the next sample; where the binding went first, it did not.
+TEST_F(Follow, AxesThatAreLetGoStayWhereTheSensorLeftThem) {
+  BindingEdit edit = binding_edit("b1", "g1");
+  bind(edit);
+  EXPECT_TRUE(scene.follow(frame({1, 2, 3})));
+  edit.axes = Axes{false, true, true};
+  bind(edit);
+  EXPECT_TRUE(scene.follow(frame({4, 5, 6})));
+  EXPECT_EQ(target("g1"), Vec3(1, 5, 6));
+  ASSERT_TRUE(scene.remove_binding("b1", {}));
+  EXPECT_EQ(position("g1"), Vec3(1, 5, 6));
+}
+
 TEST_F(Follow, RelativeStartsFromWhereBothStood) {
   BindingEdit edit = binding_edit("b1", "g1");
   edit.mode = Binding::Mode::relative;
