@@ -237,10 +237,16 @@ void describe(V& v, FigurePose& m) {
   v.required("branch_changed", m.branch_changed);
 }
 template <class V>
+void describe(V& v, ObjectFrame& m) {
+  v.required("object", m.object);
+  v.required("world_from_object", m.world_from_object);
+}
+template <class V>
 void describe(V& v, PoseData& m) {
   v.required("t_ns", m.t_ns);
   v.required("revision", m.revision);
   v.required("figures", m.figures);
+  if (V::kReads || !m.objects.empty()) v.optional("objects", m.objects);
 }
 
 template <class V>

@@ -13,16 +13,21 @@
 namespace posed::proto {
 
 struct PoseFields {
-  bool world_from_segment = true, q = true, goals = true;
+  bool world_from_segment = true, q = true, goals = true, objects = true;
   bool operator<(const PoseFields& o) const {
-    return std::tie(world_from_segment, q, goals) < std::tie(o.world_from_segment, o.q, o.goals);
+    return std::tie(world_from_segment, q, goals, objects) < std::tie(o.world_from_segment, o.q, o.goals, o.objects);
   }
   bool operator==(const PoseFields&) const = default;
+};
+struct ObjectFrame {
+  std::string object;
+  Transform world_from_object;
 };
 struct PoseData {
   Nanoseconds t_ns = 0;
   std::uint64_t revision = 0;
   std::vector<FigurePose> figures;
+  std::vector<ObjectFrame> objects = {};  // those that sensors lead
 };
 struct SensorData {
   std::string sensor;

@@ -122,20 +122,24 @@ void append_goal(std::string& out, const GoalFrame& goal) {
   out += "]}";
 }
 
+void append_transform(std::string& out, const Transform& t) {
+  out += '[';
+  for (int k = 0; k < 3; ++k) {
+    append_fixed(out, t.position[k], kMetreDecimals);
+    out += ',';
+  }
+  append_quat(out, t.rotation);
+  out += ']';
+}
+
 void append_figure(std::string& out, const FigurePose& pose, const PoseFields& fields) {
   out += "{\"figure\":";
   append_id(out, pose.figure);
   if (fields.world_from_segment) {
     out += ",\"world_from_segment\":[";
     for (std::size_t i = 0; i < pose.world_from_segment.size(); ++i) {
-      const Transform& t = pose.world_from_segment[i];
-      out += i > 0 ? ",[" : "[";
-      for (int k = 0; k < 3; ++k) {
-        append_fixed(out, t.position[k], kMetreDecimals);
-        out += ',';
-      }
-      append_quat(out, t.rotation);
-      out += ']';
+      if (i > 0) out += ',';
+      append_transform(out, pose.world_from_segment[i]);
     }
     out += ']';
   }
@@ -193,7 +197,18 @@ std::string encode_pose_frame(std::uint64_t seq, const PoseData& data, const Pos
     if (i > 0) out += ',';
     append_figure(out, data.figures[i], fields);
   }
-  return out += "]}}}";
+  out += ']';
+  if (fields.objects && !data.objects.empty()) {
+    for (const ObjectFrame& object : data.objects) {
+      out += &object == &data.objects.front() ? ",\"objects\":[{\"object\":" : ",{\"object\":";
+      append_id(out, object.object);
+      out += ",\"world_from_object\":";
+      append_transform(out, object.world_from_object);
+      out += '}';
+    }
+    out += ']';
+  }
+  return out += "}}}";
 }
 
 std::string encode_tracker_frame(std::uint64_t seq, const TrackerData& data) {

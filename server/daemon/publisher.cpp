@@ -9,7 +9,18 @@
 namespace posed {
 namespace {
 
-const std::vector<std::string> kPoseFields = {"world_from_segment", "q", "goals"};
+const std::vector<std::string> kFigureFields = {"world_from_segment", "q", "goals"};
+const std::vector<std::string> kPoseFields = {"world_from_segment", "q", "goals", "objects"};
+
+Status check_among(const std::vector<std::string>& known, const std::vector<std::string>& fields) {
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    if (std::find(known.begin(), known.end(), fields[i]) == known.end()) {
+      return Error{"invalid_params", "a pose has no field " + fields[i].substr(0, 64), "/fields/" + std::to_string(i),
+                   did_you_mean(fields[i], known)};
+    }
+  }
+  return Ok{};
+}
 
 net::SharedLine share(std::string line, proto::Stream stream, proto::Encoding encoding) {
   if (encoding == proto::Encoding::cbor) line = proto::encode_cbor(line, stream);
@@ -23,19 +34,13 @@ bool Publisher::Channel::operator<(const Channel& o) const {
 }
 
 Status Publisher::check_fields(const std::vector<std::string>& fields) {
-  for (std::size_t i = 0; i < fields.size(); ++i) {
-    if (std::find(kPoseFields.begin(), kPoseFields.end(), fields[i]) == kPoseFields.end()) {
-      return Error{"invalid_params", "a pose has no field " + fields[i].substr(0, 64), "/fields/" + std::to_string(i),
-                   did_you_mean(fields[i], kPoseFields)};
-    }
-  }
-  return Ok{};
+  return check_among(kFigureFields, fields);
 }
 
 proto::PoseFields Publisher::fields_of(const std::vector<std::string>& fields) {
   if (fields.empty()) return {};
   const auto wanted = [&](const char* name) { return std::find(fields.begin(), fields.end(), name) != fields.end(); };
-  return {wanted("world_from_segment"), wanted("q"), wanted("goals")};
+  return {wanted("world_from_segment"), wanted("q"), wanted("goals"), wanted("objects")};
 }
 
 Status Publisher::check(const proto::StreamSubscribe& wish) const {
@@ -47,7 +52,7 @@ Status Publisher::check(const proto::StreamSubscribe& wish) const {
                    "/figures/" + std::to_string(i), did_you_mean(wish.figures[i], known)};
     }
   }
-  if (Status checked = check_fields(wish.fields); !checked) return checked;
+  if (Status checked = check_among(kPoseFields, wish.fields); !checked) return checked;
   if (wish.stream != proto::Stream::pose && !(wish.figures.empty() && wish.fields.empty())) {
     return Error{"invalid_params", "only the pose stream has figures and fields to choose",
                  wish.figures.empty() ? "/fields" : "/figures", "leave it out"};
@@ -140,6 +145,11 @@ net::SharedLine Publisher::encode_pose(const Channel& channel, std::uint64_t seq
   for (const auto& [id, solved] : solving_.figures()) {
     if (channel.figures.empty() || std::binary_search(channel.figures.begin(), channel.figures.end(), id)) {
       data.figures.push_back(solving_.message(id));
+    }
+  }
+  if (channel.fields.objects) {
+    for (const auto& [id, object] : scene_.objects()) {
+      if (object.live) data.objects.push_back({id, *object.live});
     }
   }
   return share(proto::encode_pose_frame(seq, data, channel.fields), channel.stream, channel.encoding);

@@ -22,7 +22,7 @@ class Publisher {
   Publisher(net::Server& server, const Scene& scene, const Solving& solving, Journal& journal)
       : server_(server), scene_(scene), solving_(solving), journal_(journal) {}
 
-  // Of a pose; none means all. Errors: "invalid_params" for a field that is none, path "/fields/0".
+  // Of a figure's pose; none means all. Errors: "invalid_params" for a field that is none, path "/fields/0".
   static Status check_fields(const std::vector<std::string>& fields);
   static proto::PoseFields fields_of(const std::vector<std::string>& fields);
   // Errors: "unknown_figure", "invalid_params" for a field that is none.

@@ -10,7 +10,8 @@ bool differ(const Transform& a, const Transform& b) {
   return a.position != b.position || a.rotation != b.rotation;
 }
 
-bool move(std::optional<Transform>& live, const Transform& to) {
+bool move(std::optional<Transform>& live, Transform to) {
+  if (live) to.rotation = same_sign(live->rotation, to.rotation);
   const bool moved = !live || differ(*live, to);
   live = to;
   return moved;

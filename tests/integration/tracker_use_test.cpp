@@ -60,6 +60,45 @@ TEST(TrackerUse, ABoundCameraIsWhereTheSensorIsInItsStream) {
   }
 }
 
+TEST(TrackerUse, ALedObjectIsInThePosesWithWhatRidesOnIt) {
+  const RunningDaemon daemon({"simulated:3"});
+  auto client = daemon.connect();
+  ASSERT_TRUE(client.call("object.set", R"({"id":"box","position":[0.6,-0.2,1.1]})"));
+  ASSERT_TRUE(client.call("goal.set",
+                          R"({"id":"reach","at":"right_hand","position":[0,0,0.1],"relative_to":{"object":"box"}})"));
+  ASSERT_TRUE(
+      client.call("binding.set", R"({"id":"b","sensor":"simulated:1","to":{"object":"box"},"mode":"relative"})"));
+  ASSERT_TRUE(client.subscribe({proto::Stream::pose, {}, {"goals", "objects"}, 0.0, 0}));
+  double came = 0.0;
+  std::optional<Transform> last;
+  while (came < 0.01) {
+    const auto data = next_of<proto::PoseData>(client, proto::Stream::pose);
+    if (data.objects.empty()) continue;  // the sensor has not spoken yet
+    ASSERT_EQ(data.objects.size(), 1u);
+    EXPECT_EQ(data.objects[0].object, "box");
+    const Transform& box = data.objects[0].world_from_object;
+    for (const proto::GoalFrame& goal : data.figures[0].goals) {
+      if (goal.id != "reach") continue;
+      EXPECT_LT(glm::length(box * Vec3(0, 0, 0.1) - goal.target), 3e-6);
+    }
+    if (last) {
+      came += glm::length(box.position - last->position);
+      EXPECT_GT(glm::dot(box.rotation, last->rotation), 0.0) << "a quaternion keeps its sign";
+    }
+    last = box;
+  }
+  ASSERT_TRUE(client.call("binding.remove", R"({"id":"b"})"));
+  const auto left = client.call<proto::ObjectResult>(proto::ObjectGet{"box"});
+  ASSERT_TRUE(left);
+  for (;;) {
+    const auto data = next_of<proto::PoseData>(client, proto::Stream::pose);
+    if (data.objects.empty()) break;
+    last = data.objects[0].world_from_object;
+  }
+  EXPECT_LT(glm::length(left->object.world_from_object.position - last->position), 2e-6)
+      << "it stays where it was let go";
+}
+
 TEST(TrackerUse, ACameraOnAHeadMovesAsTheHeadDoes) {
   const RunningDaemon daemon({"simulated:3"});
   auto client = daemon.connect();

@@ -99,6 +99,18 @@ TEST(StreamText, APoseFrameSaysAllThatAReaderNeeds) {
   EXPECT_EQ(data_of(encode_pose_frame(1, {}, {}))["figures"], json::array());
 }
 
+TEST(StreamText, ObjectsAreSentWhereSensorsLeadAny) {
+  const PoseData data{1, 2, {}, {{"box", {{0.1234567, 0, -1}, quat_about(kZ, 1.0)}}, {"rod", {}}}};
+  const json objects = data_of(encode_pose_frame(1, data, {}))["objects"];
+  ASSERT_EQ(objects.size(), 2u);
+  EXPECT_EQ(objects[0]["object"], "box");
+  EXPECT_NEAR(objects[0]["world_from_object"][0], 0.1234567, kMetre * 1.0001);
+  EXPECT_NEAR(objects[0]["world_from_object"][5], std::sin(0.5), kQuat * 1.0001);
+  EXPECT_EQ(objects[1], json::parse(R"({"object":"rod","world_from_object":[0,0,0,0,0,0,1]})"));
+  EXPECT_FALSE(data_of(encode_pose_frame(1, data, {true, true, true, false})).contains("objects"));
+  EXPECT_FALSE(data_of(encode_pose_frame(1, {}, {})).contains("objects"));
+}
+
 TEST(StreamText, OnlyTheWantedFieldsAreSent) {
   std::mt19937 random{8};
   const PoseData data{1, 2, {random_pose(random, 2)}};

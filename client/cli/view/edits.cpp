@@ -49,7 +49,7 @@ Result<Quat> base_rotation(const Goal& goal, const Station& station) {
   if (base.kind == GoalBase::Kind::world) return quat_identity();
   if (base.kind == GoalBase::Kind::object) {
     for (const Object& object : station.entities->objects)
-      if (object.id == base.object) return object.world_from_object.rotation;
+      if (object.id == base.object) return station.world_from_object(object).rotation;
   }
   if (base.kind == GoalBase::Kind::segment && station.pose) {
     const std::string& id = base.figure.empty() ? goal.figure : base.figure;

@@ -113,7 +113,7 @@ Status Link::subscribe_to(proto::Stream stream) {
 
 Status Link::subscribe() {
   proto::StreamSubscribe pose;
-  pose.fields = {"world_from_segment", "goals"};
+  pose.fields = {"world_from_segment", "goals", "objects"};
   pose.max_rate_hz = max_rate_hz_;
   pose.credit = kCredit;
   if (!figure_.empty()) pose.figures = {figure_};

@@ -91,7 +91,7 @@ struct Drawing {
 
   void objects() {
     for (const Object& object : station.entities->objects)
-      shapes(object.shapes, object.world_from_object, Layer::object, Tone::object, 0.2);
+      shapes(object.shapes, station.world_from_object(object), Layer::object, Tone::object, 0.2);
   }
 
   void figure(const proto::FigurePose& pose) {
@@ -141,6 +141,14 @@ void mark_pins(const Camera& camera, const Station& station, const proto::Figure
 }
 
 }  // namespace
+
+const Transform& Station::world_from_object(const Object& object) const {
+  if (pose) {
+    for (const proto::ObjectFrame& led : pose->objects)
+      if (led.object == object.id) return led.world_from_object;
+  }
+  return object.world_from_object;
+}
 
 const proto::GoalResult* Entities::goal(const std::string& id) const {
   const auto found = std::find_if(goals.begin(), goals.end(), [&](const auto& g) { return g.goal.id == id; });
@@ -217,7 +225,7 @@ Box bounds(const Station& station) {
   for (const Object& object : station.entities->objects) {
     for (const Shape& shape : object.shapes) {
       const Ball ball = around(shape);
-      box.add(object.world_from_object * ball.center, ball.radius);
+      box.add(station.world_from_object(object) * ball.center, ball.radius);
     }
   }
   if (box.empty()) box.add(Vec3(0, 0, 0.5), 0.5);

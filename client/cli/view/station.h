@@ -39,6 +39,9 @@ struct Station {
   std::uint64_t edits_done = 0;  // how many of our edits have their answer, and are in `entities`
   std::uint64_t notes = 0;       // how many there have been
   Note note;                     // the last one
+
+  // Where a sensor has it, or else where the document says.
+  const Transform& world_from_object(const Object& object) const;
 };
 
 }  // namespace posed::view

@@ -35,6 +35,7 @@ export function exposeDebugHandle(model: Model, views: Views): void {
         selected: { goal: model.selectedGoal, segment: structuredClone(model.selectedSegment) },
         rides: structuredClone(model.rides),
         cameras: structuredClone(model.cameras),
+        objects: Object.fromEntries(Object.keys(model.scene.document.objects).map((id) => [id, model.objectTransform(id)])),
       };
     },
     /** Milliseconds of script that the last frames took. */

@@ -62,7 +62,7 @@ export class Session {
     model.beginSession(hello);
     await Promise.all([this.fetchTrackers(), this.fetchMenu(), this.subscribeScene()]);
     await this.streams.subscribe(
-      { stream: "pose", fields: ["world_from_segment", "goals"], max_rate_hz: 60, credit: 3 },
+      { stream: "pose", fields: ["world_from_segment", "goals", "objects"], max_rate_hz: 60, credit: 3 },
       this.reader("pose", (data) => model.takePose(data as PoseFrame, performance.now())),
     );
     await this.streams.subscribe(

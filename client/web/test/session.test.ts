@@ -45,7 +45,7 @@ describe("Session", () => {
     const subscribed = socket.sent.filter(({ method }) => method === "stream.subscribe").map(({ params }) => params);
     expect(subscribed).toEqual([
       { stream: "scene" },
-      { stream: "pose", fields: ["world_from_segment", "goals"], max_rate_hz: 60, credit: 3 },
+      { stream: "pose", fields: ["world_from_segment", "goals", "objects"], max_rate_hz: 60, credit: 3 },
       { stream: "tracker", max_rate_hz: 60, credit: 3 },
       { stream: "stats" },
     ]);

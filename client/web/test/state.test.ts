@@ -66,6 +66,22 @@ describe("the model", () => {
     expect(model.goalTarget("g1")).toEqual([0, 0, 3]);
   });
 
+  it("has an object where a sensor leads it, and where it was let go until the document says so", () => {
+    const model = new Model();
+    model.takeScene({ revision: 7, document: { objects: { box: { position: [0, 0, 1] } } } });
+    const at = (revision: number, ...z: number[]) =>
+      model.takePose({ t_ns: 1, revision, figures: [], objects: z.map((z) => ({ object: "box", world_from_object: [0, 0, z, 0, 0, 0, 1] })) }, 0);
+    expect(model.objectTransform("box")).toEqual([0, 0, 1, 0, 0, 0, 1]);
+    at(7, 2);
+    expect(model.objectTransform("box")).toEqual([0, 0, 2, 0, 0, 0, 1]);
+    at(8);
+    at(8);
+    expect(model.objectTransform("box")?.[2]).toBe(2);
+    model.takeScene({ from_revision: 7, revision: 8, patch: [{ op: "replace", path: "/objects/box/position", value: [0, 0, 2.5] }] });
+    expect(model.objectTransform("box")?.[2]).toBe(2.5);
+    expect(model.objectTransform("gone")).toBeNull();
+  });
+
   it("shows what is no position in the world, and does not move it", () => {
     const model = new Model();
     const position: Vec3 = [0, 0, 1];

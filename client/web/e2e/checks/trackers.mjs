@@ -31,6 +31,8 @@ function withTracker(run) {
   };
 }
 
+const bindings = async (page) => Object.values((await state(page)).scene.bindings);
+
 async function lists({ page }) {
   await page.getByTestId("tab-trackers").click();
   await until(async () => (await page.getByTestId("tracker-state").textContent()) === "streaming", "a station that streams");
@@ -51,16 +53,17 @@ async function leads({ page }) {
   await page.getByTestId("tab-trackers").click();
   const row = page.getByTestId(`sensor-${sensor}`);
   await row.getByTestId("sensor-target").selectOption({ label: "goal right hand" });
-  await until(async () => Object.values((await state(page)).scene.bindings).some(({ to }) => to.goal === hand), "the binding");
+  await until(async () => (await bindings(page)).some(({ to }) => to.goal === hand), "the binding");
   await follows(page);
   await row.getByTestId("binding-mode").selectOption("relative");
-  await until(async () => Object.values((await state(page)).scene.bindings)[0].mode === "relative", "the mode");
+  await until(async () => (await bindings(page))[0].mode === "relative", "the mode");
   await row.getByRole("button", { name: "moves along z" }).click();
-  await until(async () => Object.values((await state(page)).scene.bindings)[0].axes.join("") === "xy", "the axes");
+  await until(async () => (await bindings(page))[0].axes.join("") === "xy", "the axes");
   await row.getByTestId("binding-scale").fill("0.5");
   await row.getByTestId("binding-scale").blur();
-  await until(async () => Object.values((await state(page)).scene.bindings)[0].scale === 0.5, "the scale");
+  await until(async () => (await bindings(page))[0].scale === 0.5, "the scale");
   await smooths(page, row);
+  await acts(page, row);
   await findsNothing(page, "a binding's row");
   await row.getByTestId("binding-remove").click();
   await until(async () => Object.keys((await state(page)).scene.bindings).length === 0, "the binding to go");
@@ -68,7 +71,7 @@ async function leads({ page }) {
 
 /** The filter of the only binding, by its row. */
 async function smooths(page, row) {
-  const filter = async () => Object.values((await state(page)).scene.bindings)[0].filter ?? null;
+  const filter = async () => (await bindings(page))[0].filter ?? null;
   await row.getByTestId("binding-smooth").click();
   await until(async () => (await filter())?.one_euro?.min_cutoff_hz === 1, "the low pass");
   for (const [field, value] of [["cutoff", "0.5"], ["beta", "3"], ["predict", "20"]]) {
@@ -82,6 +85,19 @@ async function smooths(page, row) {
   await follows(page);
   await row.getByTestId("binding-smooth").click();
   await until(async () => (await filter())?.one_euro === undefined && (await filter())?.predict_ms === 20, "the low pass to go");
+}
+
+/** What the sensor's buttons do, by the row of the only binding. */
+async function acts(page, row) {
+  const buttons = row.getByTestId("binding-buttons");
+  await buttons.locator("summary").click();
+  for (const [button, action] of [["1", "stay or follow"], ["0", "bring back"]]) {
+    await buttons.getByTestId(`binding-button-${button}`).selectOption({ label: action });
+    await until(async () => JSON.stringify((await bindings(page))[0].buttons).includes(`"button":${button}`), action);
+  }
+  assert.deepEqual((await bindings(page))[0].buttons, [{ button: 0, do: "recenter" }, { button: 1, do: "toggle" }]);
+  await buttons.getByTestId("binding-button-0").selectOption({ label: "nothing" });
+  await until(async () => (await bindings(page))[0].buttons.length === 1, "one button to do nothing");
 }
 
 /** The driver's own dragging does not carry a page's data: the events are given as the browser gives them. */
@@ -100,7 +116,7 @@ async function drops({ page }) {
   await makeByClick(page);
   await page.getByTestId("tab-trackers").click();
   await drop(page, sensor, "front", (await state(page)).goals[hand].target);
-  await until(async () => Object.values((await state(page)).scene.bindings).some(({ to }) => to.goal === hand), "the binding");
+  await until(async () => (await bindings(page)).some(({ to }) => to.goal === hand), "the binding");
   await follows(page);
 }
 
@@ -109,11 +125,20 @@ async function leadsObject({ page }) {
   await call(page, "object.set", { id: "box", position: [0.6, 0.2, 0.4], shape: [{ kind: "box", center: [0, 0, 0], half_size: [0.15, 0.15, 0.15] }] });
   await page.getByTestId("tab-trackers").click();
   await page.getByTestId(`sensor-${sensor}`).getByTestId("sensor-target").selectOption({ label: "object box" });
-  await until(async () => Object.values((await state(page)).scene.bindings).some(({ to }) => to.object === "box"), "the binding");
-  assert.ok(distance([0, 0, 0], (await state(page)).scene.objects.box.position) > 0);
+  await until(async () => (await bindings(page)).some(({ to }) => to.object === "box"), "the binding");
+  // Where it is drawn, though the document still has it where it was put.
+  const seen = new Set();
+  await until(async () => {
+    seen.add(JSON.stringify((await state(page)).objects.box));
+    return seen.size > 2;
+  }, "the box to move");
+  assert.deepEqual((await state(page)).scene.objects.box.position, [0.6, 0.2, 0.4]);
+  await page.getByTestId("binding-remove").click();
+  await until(async () => (await bindings(page)).length === 0, "the binding to go");
+  const left = (await state(page)).scene.objects.box.position;
+  assert.ok(distance([0.6, 0.2, 0.4], left) > 1e-3, "it stays where it was let go");
+  await until(async () => distance((await state(page)).objects.box, left) < 1e-5, "the box to be drawn there");
 }
-
-const bindings = async (page) => Object.values((await state(page)).scene.bindings);
 
 async function turns({ page }) {
   await begin(page, "standing");

@@ -8,7 +8,8 @@ import type { Requests } from "../tools/requests";
 import { clicked } from "./panel";
 
 const kAllAxes = ["x", "y", "z", "rx", "ry", "rz"];
-const kClutches = [0, 1, 2, 3];
+const kButtons = [0, 1, 2, 3];
+const kActions = { recenter: "bring back", toggle: "stay or follow", save: "save the scene" } as const;
 
 export function bindingRow(model: Model, requests: Requests, id: string, binding: BindingDocument): TemplateResult {
   const disabled = !model.mayEdit;
@@ -40,11 +41,28 @@ export function bindingRow(model: Model, requests: Requests, id: string, binding
       <label class="field">× <input type="number" step="0.1" data-testid="binding-scale" aria-label="Scale" .value=${String(binding.scale ?? 1)} ?disabled=${disabled} @change=${scale} /></label>
       ${leadsMore(model) ? html`<label class="field" title="It moves only while this button of the sensor is held">clutch <select data-testid="binding-clutch" ?disabled=${disabled} @change=${clutch}>
           <option value="" ?selected=${!binding.clutch}>none</option>
-          ${kClutches.map((button) => html`<option value=${button} ?selected=${binding.clutch?.button === button}>button ${button}</option>`)}
+          ${kButtons.map((button) => html`<option value=${button} ?selected=${binding.clutch?.button === button}>button ${button}</option>`)}
         </select></label>` : nothing}
     </div>
     ${filterFields(binding, set, disabled)}
+    ${leadsMore(model) ? buttonFields(binding, set, disabled) : nothing}
   </div>`;
+}
+
+/** What the sensor's buttons do when they are pressed. */
+function buttonFields({ buttons = [], mode }: BindingDocument, set: (fields: Partial<BindingDocument>) => void, disabled: boolean): TemplateResult {
+  const choose = (button: number, event: Event) => {
+    const action = (event.target as HTMLSelectElement).value as keyof typeof kActions | "";
+    const others = buttons.filter((other) => other.button !== button);
+    set({ buttons: action === "" ? others : [...others, { button, do: action }].sort((a, b) => a.button - b.button) });
+  };
+  const does = (button: number) => buttons.find((other) => other.button === button)?.do;
+  return html`<details data-testid="binding-buttons"><summary>buttons${buttons.length > 0 ? html` (${buttons.length})` : nothing}</summary>
+    <div class="line wrap">${kButtons.map((button) => html`<label class="field">button ${button} <select data-testid="binding-button-${button}" ?disabled=${disabled} @change=${(event: Event) => choose(button, event)}>
+      <option value="" ?selected=${!does(button)}>nothing</option>
+      ${Object.entries(kActions).filter(([action]) => action !== "recenter" || mode === "relative" || does(button) === action).map(([action, says]) => html`<option value=${action} ?selected=${does(button) === action}>${says}</option>`)}
+    </select></label>`)}</div>
+  </details>`;
 }
 
 /** The One-Euro low pass (calm at rest, quick in motion) and how far ahead the daemon looks. */

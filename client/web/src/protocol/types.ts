@@ -96,6 +96,7 @@ export interface BindingDocument {
   axes?: string[];
   mode?: "absolute" | "relative";
   clutch?: { button: number } | null;
+  buttons?: Array<{ button: number; do: "recenter" | "toggle" | "save" }>;
   scale?: number;
   filter?: Filter | null;
 }
@@ -160,6 +161,8 @@ export interface GoalPose {
 export interface PoseFrame {
   t_ns: number;
   revision: number;
+  /** Those that sensors lead. */
+  objects?: Array<{ object: string; world_from_object: Transform }>;
   figures: Array<{
     figure: string;
     world_from_segment: Transform[];

@@ -22,10 +22,7 @@ export function frameTransform(model: Model, frame: Frame | undefined, figure: s
     const sample = model.samples.get(frame.sensor);
     return sample ? [...sample.position, ...sample.quat_xyzw] : null;
   }
-  if ("object" in frame) {
-    const object = model.scene.document.objects[frame.object];
-    return object ? [...(object.position ?? [0, 0, 0]), ...(object.quat_xyzw ?? [0, 0, 0, 1])] as Transform : null;
-  }
+  if ("object" in frame) return model.objectTransform(frame.object);
   return model.segmentTransform(frame.figure ?? figure ?? "", frame.segment);
 }
 

@@ -24,6 +24,7 @@ import type {
 } from "../protocol/types";
 import { frameTransform, payloadPoint } from "./goals";
 import { DaemonClock } from "./daemon_clock";
+import { Led } from "./led";
 import { Meter } from "./meter";
 import { People } from "./people";
 import { apply, identity, multiply, quatOf } from "./place";
@@ -81,6 +82,7 @@ export class Model {
 
   figures = new Map<string, FigureDocument>();
   poses = new Map<string, FigurePose>();
+  private led = new Led();
   poseRevision = -1;
   /** By goal; made anew when first asked for after a pose. */
   private goalPoses = new Map<string, GoalPose>();
@@ -149,6 +151,7 @@ export class Model {
   beginSession(hello: HelloReply): void {
     this.hello = hello;
     this.poseRevision = -1;
+    this.led = new Led();
     this.samples.clear();
     this.clock.forget();
     this.people.me = hello.session;
@@ -172,6 +175,7 @@ export class Model {
         status: figure.status ?? "",
       });
     }
+    this.led.take(frame, this.scene.revision);
     this.poseRevision = frame.revision;
     this.poseTimeNs = frame.t_ns;
     for (const [id, local] of this.localTargets) {
@@ -298,6 +302,13 @@ export class Model {
   movable(id: string): boolean {
     const goal = this.scene.document.goals[id];
     return goal !== undefined && payloadPoint(goal) !== undefined && this.goalFrame(goal) !== null && this.mayEdit && !this.people.holder(id);
+  }
+
+  /** Where a thing stands now: where a sensor has it, or else where the document says. */
+  objectTransform(id: string): Transform | null {
+    const led = this.led.transform(id, this.scene.revision);
+    const object = this.scene.document.objects[id];
+    return led ?? (object ? [...(object.position ?? [0, 0, 0]), ...(object.quat_xyzw ?? [0, 0, 0, 1])] as Transform : null);
   }
 
   goalFigure(goal: GoalDocument): string | undefined {

@@ -107,7 +107,8 @@ TEST_F(AtTheDesk, UndoAndRedo) {
   EXPECT_EQ(press(Command::redo)->method, "edit.redo");
 }
 
-TEST_F(AtTheDesk, AGoalRelativeToATurnedObjectMovesAsItIsSeen) {
+// The first goal in a chair that is turned by a quarter.
+void sit(Station& station) {
   auto entities = std::make_shared<Entities>(*station.entities);
   Object chair;
   chair.id = "chair";
@@ -115,9 +116,23 @@ TEST_F(AtTheDesk, AGoalRelativeToATurnedObjectMovesAsItIsSeen) {
   entities->objects = {chair};
   entities->goals[1].goal.relative_to = {GoalBase::Kind::object, "", "", "", "chair"};
   station.entities = entities;
+}
+
+TEST_F(AtTheDesk, AGoalRelativeToATurnedObjectMovesAsItIsSeen) {
+  sit(station);
   press(Command::front);  // right is +Y, the chair's +X
   EXPECT_EQ(press(Command::nudge_right)->params,
             R"({"id":"body.left_arm.position","position":[0.41,0.8,1.2],"gesture":"t-1"})");
+}
+
+TEST_F(AtTheDesk, ASensorHasTheLastWordOnHowAnObjectIsTurned) {
+  sit(station);
+  auto pose = std::make_shared<proto::PoseData>(*station.pose);
+  pose->objects = {{"chair", {}}};
+  station.pose = pose;
+  press(Command::front);
+  EXPECT_EQ(press(Command::nudge_right)->params,
+            R"({"id":"body.left_arm.position","position":[0.4,0.81,1.2],"gesture":"t-1"})");
 }
 
 TEST_F(AtTheDesk, OtherKindsMoveByTheirPoint) {
