@@ -93,7 +93,7 @@ async function acts(page, row) {
   await buttons.locator("summary").click();
   for (const [button, action] of [["1", "stay or follow"], ["0", "bring back"]]) {
     await buttons.getByTestId(`binding-button-${button}`).selectOption({ label: action });
-    await until(async () => JSON.stringify((await bindings(page))[0].buttons).includes(`"button":${button}`), action);
+    await until(async () => JSON.stringify((await bindings(page))[0].buttons ?? []).includes(`"button":${button}`), action);
   }
   assert.deepEqual((await bindings(page))[0].buttons, [{ button: 0, do: "recenter" }, { button: 1, do: "toggle" }]);
   await buttons.getByTestId("binding-button-0").selectOption({ label: "nothing" });
@@ -137,7 +137,7 @@ async function leadsObject({ page }) {
   await until(async () => (await bindings(page)).length === 0, "the binding to go");
   const left = (await state(page)).scene.objects.box.position;
   assert.ok(distance([0.6, 0.2, 0.4], left) > 1e-3, "it stays where it was let go");
-  await until(async () => distance((await state(page)).objects.box, left) < 1e-5, "the box to be drawn there");
+  await until(async () => distance(left, (await state(page)).objects.box) < 1e-5, "the box to be drawn there");
 }
 
 async function turns({ page }) {
