@@ -40,12 +40,24 @@ export class TrackerPanel extends Panel {
     return html`<div class="row tracker" data-testid="tracker-${tracker}" data-state=${state}>
       <div class="line"><span class="grow strong">${tracker}</span>
         <span class="dim number" data-testid="tracker-rate">${rate_hz ? `${Math.round(rate_hz)} Hz` : ""}</span>
+        ${this.quality(tracker)}
         <span class="tracker-state" data-testid="tracker-state">${state}</span></div>
       ${message ? html`<div class="note" data-testid="tracker-message">${message}</div>` : nothing}
       ${bad_bytes ? html`<div class="note">${bad_bytes} bytes of ${kind} made no sense and were passed over</div>` : nothing}
       ${this.calibration(info)}
       ${repeat(sensors, (sensor) => sensor, (sensor) => this.sensor(sensor))}
     </div>`;
+  }
+
+  /** How old its newest samples are on this page, and how evenly they come. */
+  private quality(tracker: string): TemplateResult | typeof nothing {
+    const { model } = this;
+    const heard = model.heardNs.get(tracker);
+    const age = heard === undefined ? null : model.clock.ageMs(heard, performance.now());
+    const stats = model.stats?.trackers?.find((other) => other.tracker === tracker);
+    if (age === null || !stats) return nothing;
+    const ms = (us: number) => `${(us / 1000).toFixed(1)} ms`;
+    return html`<span class="dim number" data-testid="tracker-age" title="Age of the newest samples here. Those of the last second came up to ${ms(stats.lag_us)} late at the daemon, uneven by ${ms(stats.jitter_us)}">${ageText(age)} ±${ms(stats.jitter_us)}</span>`;
   }
 
   /** Which calibration counts, and the walk that makes one. */
@@ -111,4 +123,8 @@ export class TrackerPanel extends Panel {
     if (orphans.length === 0) return nothing;
     return html`<div class="rows" data-testid="orphan-bindings">${orphans.map(([id, binding]) => html`<div class="row"><div class="note">${binding.sensor} is not attached: ${targetText(targetOf(binding))}</div>${bindingRow(this.model, this.requests, id, binding)}</div>`)}</div>`;
   }
+}
+
+function ageText(ms: number): string {
+  return ms < 10_000 ? `${ms.toFixed(0)} ms` : `${(ms / 1000).toFixed(0)} s`;
 }

@@ -193,6 +193,7 @@ export interface StatsFrame {
   solve_us?: unknown;
   connections?: number;
   dropped?: number;
+  trackers?: Array<{ tracker: string; rate_hz: number; jitter_us: number; lag_us: number }>;
 }
 
 export interface TrackerInfo {

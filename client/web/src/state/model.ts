@@ -101,6 +101,8 @@ export class Model {
   /** Edits that wait for the daemon to come back. */
   waitingEdits = 0;
 
+  /** When the daemon heard each tracker last, on its clock. */
+  readonly heardNs = new Map<string, number>();
   readonly poseMeter = new Meter();
   readonly frameMeter = new Meter();
   /** Script work of the last frames that drew, milliseconds each. */
@@ -153,6 +155,7 @@ export class Model {
     this.poseRevision = -1;
     this.led = new Led();
     this.samples.clear();
+    this.heardNs.clear();
     this.clock.forget();
     this.people.me = hello.session;
     for (const topic of ["samples", "local", "people"] as const) this.touch(topic);
@@ -203,6 +206,7 @@ export class Model {
     const ofDevice = this.trackers.find(({ tracker }) => tracker === frame.device)?.sensors ?? [];
     for (const sensor of ofDevice) this.samples.delete(sensor);
     for (const sample of frame.sensors) this.samples.set(sample.sensor, sample);
+    this.heardNs.set(frame.device, frame.t_ns);
     this.touch("samples");
   }
 
