@@ -39,9 +39,9 @@ export class TrackerPanel extends Panel {
     const { tracker, state, kind, rate_hz, message, sensors, bad_bytes } = info;
     return html`<div class="row tracker" data-testid="tracker-${tracker}" data-state=${state}>
       <div class="line"><span class="grow strong">${tracker}</span>
-        <span class="dim number" data-testid="tracker-rate">${rate_hz ? `${Math.round(rate_hz)} Hz` : ""}</span>
-        ${this.quality(tracker)}
         <span class="tracker-state" data-testid="tracker-state">${state}</span></div>
+      <div class="line"><span class="dim number" data-testid="tracker-rate">${rate_hz ? `${Math.round(rate_hz)} Hz` : ""}</span>
+        <span class="grow"></span>${this.quality(tracker)}</div>
       ${message ? html`<div class="note" data-testid="tracker-message">${message}</div>` : nothing}
       ${bad_bytes ? html`<div class="note">${bad_bytes} bytes of ${kind} made no sense and were passed over</div>` : nothing}
       ${this.calibration(info)}
