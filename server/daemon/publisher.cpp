@@ -75,6 +75,7 @@ void Publisher::subscribe(net::ConnectionId connection, const proto::StreamSubsc
   auto [it, made] = channels_.try_emplace(channel);
   State& state = it->second;
   if (made) state.key = next_key_++;
+  state.seq = std::max<std::uint64_t>(state.seq, 1);  // the present state has a number that it had, or the first
   ++state.subscribers;
   followers_[connection][static_cast<std::size_t>(wish.stream)] = channel;
 
@@ -86,10 +87,10 @@ void Publisher::subscribe(net::ConnectionId connection, const proto::StreamSubsc
     return subscribe_to_scene(connection, wish);
   }
   net::SharedLine present = state.last;
-  if (wish.stream == proto::Stream::pose) present = encode_pose(channel, ++state.seq, pose_t_ns_);
+  if (wish.stream == proto::Stream::pose) present = encode_pose(channel, state.seq, pose_t_ns_);
   if (wish.stream == proto::Stream::camera) {
     publish_cameras(pose_t_ns_);  // so that all followers have seen the same
-    present = share(proto::encode_camera_frame(++state.seq, {pose_t_ns_, cameras_}), wish.stream, wish.encoding);
+    present = share(proto::encode_camera_frame(state.seq, {pose_t_ns_, cameras_}), wish.stream, wish.encoding);
   }
   server_.subscribe(
       connection, {wish.stream, state.key, wish.max_rate_hz, wish.credit, true, wish.encoding == proto::Encoding::cbor},
@@ -107,11 +108,10 @@ void Publisher::subscribe_to_scene(net::ConnectionId connection, const proto::St
     server_.subscribe(
         connection,
         {wish.stream, state.key, wish.max_rate_hz, wish.credit, false, channel->encoding == proto::Encoding::cbor},
-        share(stored ? proto::encode_scene_snapshot(state.seq + 1, revision, text)
-                     : proto::encode_scene_snapshot(state.seq + 1, scene_revision_, scene_text_),
+        share(stored ? proto::encode_scene_snapshot(state.seq, revision, text)
+                     : proto::encode_scene_snapshot(state.seq, scene_revision_, scene_text_),
               proto::Stream::scene, channel->encoding),
-        state.seq + 1);
-    ++state.seq;
+        state.seq);
   });
 }
 

@@ -318,6 +318,36 @@ TEST(Daemon, TheSceneStreamIsASnapshotAndThenPatches) {
   }
 }
 
+// Each newcomer took a number of its own: to all others a frame seemed lost of which they were not told.
+TEST(Daemon, WhoSubscribesLaterTakesNoNumberFromOthers) {
+  const RunningDaemon daemon;
+  auto client = daemon.connect();
+  ASSERT_TRUE(client.call("camera.set", R"({"id":"main","position":[1,0,1]})"));
+  ASSERT_TRUE(client.call("pose.get", "{}"));
+  const auto streams = {proto::Stream::pose, proto::Stream::camera, proto::Stream::scene};
+  std::map<proto::Stream, std::uint64_t> last;
+  const auto subscribe = [&](client::Client& to) {
+    for (const proto::Stream stream : streams) ASSERT_TRUE(to.subscribe({stream, {}, {}, 0.0, 0}));
+  };
+  const auto take = [&](client::Client& from, auto check) {
+    for (std::size_t i = 0; i < streams.size(); ++i) {
+      const auto frame = from.next(kPatience);
+      ASSERT_TRUE(frame) << frame.error().message;
+      check(*frame);
+    }
+  };
+  subscribe(client);
+  take(client, [&](const proto::Incoming& frame) { last[*frame.stream] = frame.seq; });
+  auto first = daemon.connect(), second = daemon.connect();
+  for (auto* const other : {&first, &second}) {
+    subscribe(*other);
+    take(*other, [&](const proto::Incoming& frame) { EXPECT_EQ(frame.seq, last[*frame.stream]); });
+  }
+  ASSERT_TRUE(first.call("camera.set", R"({"id":"main","position":[2,0,1]})"));
+  for (auto* const each : {&client, &first, &second})
+    take(*each, [&](const proto::Incoming& frame) { EXPECT_EQ(frame.seq, last[*frame.stream] + 1); });
+}
+
 TEST(Daemon, MirrorAndResetMoveTheFigureAndGoalsStay) {
   const RunningDaemon daemon({}, "empty");
   auto client = daemon.connect();

@@ -34,9 +34,9 @@ int main(int argc, char** argv) {
   posed::tracker::Sink sink;
   sink.frame = [&](const posed::Frame& frame) {
     for (const posed::Sample& s : frame.samples) {
-      std::printf("%.6f %s:%d %.4f %.4f %.4f  %.4f %.4f %.4f %.4f\n", static_cast<double>(frame.t_ns) * 1e-9,
+      std::printf("%.6f %s:%d %.4f %.4f %.4f  %.4f %.4f %.4f %.4f %u\n", static_cast<double>(frame.t_ns) * 1e-9,
                   frame.device.c_str(), s.station, s.position.x, s.position.y, s.position.z, s.rotation.x, s.rotation.y,
-                  s.rotation.z, s.rotation.w);
+                  s.rotation.z, s.rotation.w, s.device_count);
     }
     if (++frames == wanted) kill(getpid(), SIGTERM);
   };

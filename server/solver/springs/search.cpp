@@ -123,6 +123,7 @@ void SpringSolver::sum_levels(std::span<const SpringGoal> goals, std::vector<Lev
       level.cost += term.weight * error * error;
     }
   }
+  std::fill(slope_.begin(), slope_.end(), 0.0);
   for (const springs::Rest& rest : plan_.rests) {
     Level& level = level_of(rest.goal);
     level.weight += rest.weight[0];

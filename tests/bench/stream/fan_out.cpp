@@ -91,6 +91,14 @@ void fan_out(BenchOutput& out, Verdict& verdict, int viewers, double rate_hz) {
     const double tcp_ratio = median(ratios(*tcp, rounds[0])), ws_ratio = median(ratios(*websocket, rounds[0]));
     verdict.judge(tcp_ratio <= 1.4, "TCP costs %.2f times the floor, at most %.1f", tcp_ratio, 1.4);
     verdict.judge(ws_ratio <= 2.0, "WebSocket costs %.2f times the floor, at most %.1f", ws_ratio, 2.0);
+    const double floor_p99 = median_of(rounds[0], &Round::p99_us);
+    for (const auto* const ours : {tcp, websocket}) {
+      const double later = median_of(*ours, &Round::p99_us) / floor_p99;
+      verdict.judge(later <= 2.0,
+                    ours == tcp ? "TCP's p99 is %.2f times the floor's, at most %.1f"
+                                : "WebSocket's p99 is %.2f times the floor's, at most %.1f",
+                    later, 2.0);
+    }
     if (const auto* const nats = named("nats-server")) {
       const double share = median(ratios(*tcp, *nats));
       verdict.judge(share < 0.5, "TCP costs %.2f of what nats-server does, less than %.1f", share, 0.5);
