@@ -42,19 +42,20 @@ async function drawn(page) {
 }
 
 const fine = new URL("?draw=fine", daemon.url).href;
-const small = await openPage(browser, fine, { viewport: { width: 1100, height: 760 }, colorScheme: "light" });
+const small = await openPage(browser, fine, { viewport: { width: 1300, height: 760 }, colorScheme: "light" });
 await small.keyboard.press("4");
 const { templates } = await call(small, "scene.list");
 for (const template of templates) {
   await begin(small, template);
+  await small.waitForTimeout(2600); // who has just edited is told that long
   await small.keyboard.press("4");
   await small.keyboard.press("f");
   await drawn(small);
   const { left, right, top, bottom } = await rectOf(small, "perspective");
-  // Below the title, as wide as high pictures are not.
-  const width = right - left - 4;
-  const height = Math.min(bottom - top - 40, width / 1.2);
-  await take(small, { x: left + 2, y: bottom - height - 2, width, height }, 240, join(web, "public/gallery", `${template.replace("/", "-")}.webp`));
+  // All of its height below the title: the figure fills it.
+  const height = bottom - top - 30;
+  const width = Math.min(right - left - 4, height * 1.2);
+  await take(small, { x: (left + right - width) / 2, y: bottom - height - 2, width, height }, 240, join(web, "public/gallery", `${template.replace("/", "-")}.webp`));
 }
 await small.context().close();
 
