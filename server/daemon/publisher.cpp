@@ -138,6 +138,11 @@ void Publisher::forget(net::ConnectionId connection) {
   followers_.erase(follower);
 }
 
+bool Publisher::follows(net::ConnectionId connection, proto::Stream stream) const {
+  const auto follower = followers_.find(connection);
+  return follower != followers_.end() && follower->second[static_cast<std::size_t>(stream)];
+}
+
 net::SharedLine Publisher::encode_pose(const Channel& channel, std::uint64_t seq, Nanoseconds t_ns) const {
   proto::PoseData data;
   data.t_ns = t_ns;

@@ -31,6 +31,7 @@ class Publisher {
   void subscribe(net::ConnectionId connection, const proto::StreamSubscribe& wish);
   void unsubscribe(net::ConnectionId connection, proto::Stream stream);
   void forget(net::ConnectionId connection);
+  bool follows(net::ConnectionId connection, proto::Stream stream) const;
 
   void publish_pose(Nanoseconds t_ns);
   void publish_cameras(Nanoseconds t_ns);  // where they stand has changed, or may have

@@ -142,7 +142,12 @@ void Requests::on(const proto::StreamUnsubscribe& wish, Responder responder) {
 }
 
 // The credit was booked where the line came in.
-void Requests::on(const proto::StreamAck&, Responder responder) {
+void Requests::on(const proto::StreamAck& ack, Responder responder) {
+  if (!p_.publisher.follows(connection_, ack.stream)) {
+    return responder.params_error(
+        {"unknown_stream", "this connection is not subscribed to " + std::string(proto::stream_name(ack.stream)),
+         "/stream", "call stream.subscribe first"});
+  }
   responder.result(proto::EmptyResult{});
 }
 

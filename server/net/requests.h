@@ -6,8 +6,7 @@
 
 namespace posed::net {
 
-// Books the acks of a line. Those that want no reply are taken out; one of a stream that is not subscribed becomes a
-// BadRequest.
+// Books the acks of a line. Those that want no reply are taken out; the station answers the others.
 void take_acks(proto::Line& line, Outbox& outbox, Nanoseconds now);
 
 }  // namespace posed::net

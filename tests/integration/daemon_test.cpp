@@ -348,6 +348,23 @@ TEST(Daemon, WhoSubscribesLaterTakesNoNumberFromOthers) {
     take(*each, [&](const proto::Incoming& frame) { EXPECT_EQ(frame.seq, last[*frame.stream] + 1); });
 }
 
+// The stream's frames came by another thread than the reply: an ack that was quick found no subscription.
+TEST(Daemon, AStreamIsFollowedAsSoonAsThatIsAnswered) {
+  const RunningDaemon daemon;
+  auto client = daemon.connect();
+  const char* const ack = R"({"stream":"stats","seq":1})";
+  for (int i = 0; i < 200; ++i) {
+    ASSERT_TRUE(client.call("stream.subscribe", R"({"stream":"stats","credit":1})"));
+    const auto done = client.call("stream.ack", ack);
+    ASSERT_TRUE(done) << i << ": " << done.error().message;
+    ASSERT_TRUE(client.call("stream.unsubscribe", R"({"stream":"stats"})"));
+    const auto refused = client.call("stream.ack", ack);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, "unknown_stream");
+    EXPECT_EQ(refused.error().path, "/params/stream");
+  }
+}
+
 TEST(Daemon, MirrorAndResetMoveTheFigureAndGoalsStay) {
   const RunningDaemon daemon({}, "empty");
   auto client = daemon.connect();
