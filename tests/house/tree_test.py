@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Rules for every file: include guards, length, nothing left for later, nothing of one machine.
+"""Rules for every file: include guards, length, programs that may run, nothing left for later, nothing of one machine.
 
     python3 tests/house/tree_test.py [--self-test]
 """
 
+import os
 import re
 import sys
 from pathlib import Path
@@ -34,6 +35,8 @@ def complaints(top):
             found.append(f"{path}: has no #pragma once")
         if path.suffix in CODE and len(lines) - 1 > MOST_LINES and str(path) not in LONG:
             found.append(f"{path}: {len(lines) - 1} lines, above {MOST_LINES}: split it, or say why in {Path(__file__).name}")
+        if content.startswith("#!") and not os.access(top / path, os.X_OK):
+            found.append(f"{path}: is a program that may not run: chmod +x, or take its first line away")
         if path.name == "package-lock.json" and '"resolved"' in content:
             found.append(f"{path}: names a registry (see omit-lockfile-registry-resolved in .npmrc)")
         for number, line in enumerate(lines, 1):
@@ -54,6 +57,7 @@ FAULTS = [
     ({"common/a-inl.h": "#pragma once\n"}, "no #pragma once"),
     ({"common/a.cpp": "\n" * 501}, "501 lines"),
     ({"common/a.cpp": "// TO" + "DO: later\n"}, "a.cpp:1: left for later"),
+    ({"deploy/x": "#!/bin/sh\n"}, "may not run"),
     ({"deploy/x": "cd /" + "work/posed\n"}, "x:1: a path of one machine"),
     ({"client/web/package-lock.json": '{"resolved": "https://example.org"}\n'}, "names a registry"),
 ]
