@@ -28,7 +28,10 @@ void SpringSolver::balance_levels(std::span<const SpringGoal> goals, const Sprin
                                   const Stop& should_stop, SolveReport& report) {
   SpringOptions now = options;
   now.cold = now.explore = false;
-  if (options.cold) search_levels(goals, options, should_stop, report);
+  if (options.cold) {
+    search_levels(goals, options, should_stop, report);
+    begin_levels(goals, options);
+  }
   const bool far = take_levels(goals, now, should_stop, report);
   if (options.explore && !options.cold && far && report.status != SolveStatus::deadline)
     explore_levels(goals, now, should_stop, report);
@@ -42,7 +45,7 @@ double SpringSolver::heaviest(std::span<const SpringGoal> goals, int level) {
   return most;
 }
 
-// As the goals say, with nothing held yet.
+// As a solve begins: all as the goals say, with nothing held yet.
 void SpringSolver::begin_levels(std::span<const SpringGoal> goals, const SpringOptions& options) {
   std::copy(terms_.begin(), terms_.end(), plan_.terms.begin());
   set_springs(goals);
@@ -55,7 +58,6 @@ bool SpringSolver::take_levels(std::span<const SpringGoal> goals, const SpringOp
   const auto level_of = [&](const Term& term) { return goals[static_cast<std::size_t>(term.goal)].priority; };
   bool far = false;
   double before = 0.0;  // the heaviest goal of the level before
-  begin_levels(goals, options);
   for (Term& term : plan_.terms) term.weight = 0.0;
   for (const int level : levels_) {
     set_springs(goals, &level);

@@ -93,7 +93,10 @@ void SpringSolver::explore_levels(std::span<const SpringGoal> goals, const Sprin
   const SolveStatus status = report.status;
   springs::copy(start_, state_);
   search_levels(goals, options, should_stop, report);
-  if (report.status != SolveStatus::deadline) take_levels(goals, options, should_stop, report);
+  if (report.status != SolveStatus::deadline) {
+    begin_levels(goals, options);
+    take_levels(goals, options, should_stop, report);
+  }
   if (report.status != SolveStatus::deadline) {
     sum_levels(goals, other_sums_);
     report.branch_changed = clearly_better(other_sums_, sums_);
