@@ -199,11 +199,12 @@ std::string encode_pose_frame(std::uint64_t seq, const PoseData& data, const Pos
   }
   out += ']';
   if (fields.objects && !data.objects.empty()) {
-    for (const ObjectFrame& object : data.objects) {
-      out += &object == &data.objects.front() ? ",\"objects\":[{\"object\":" : ",{\"object\":";
-      append_id(out, object.object);
+    out += ",\"objects\":[";
+    for (std::size_t i = 0; i < data.objects.size(); ++i) {
+      out += i > 0 ? ",{\"object\":" : "{\"object\":";
+      append_id(out, data.objects[i].object);
       out += ",\"world_from_object\":";
-      append_transform(out, object.world_from_object);
+      append_transform(out, data.objects[i].world_from_object);
       out += '}';
     }
     out += ']';

@@ -226,7 +226,7 @@ Result<Edited> Scene::set_binding(const BindingEdit& edit, IfRevision if_revisio
   Result<SceneBinding> made = make_binding(std::move(binding));
   if (!made) return made.error();
   made->revision = next_revision(&Change::bindings, bindings_, id);
-  // An axis that is followed no more stays where the sensor left it, too.
+  // Other axes: those that are followed no more stay where the sensor left them.
   if (before != bindings_.end() &&
       (before->second.binding.to != made->binding.to || before->second.binding.axes != made->binding.axes))
     let_go(before->second);
