@@ -54,16 +54,24 @@ void SpringSolver::search(const SpringOptions& options, const Stop& should_stop,
   if (found.stopped) report.status = SolveStatus::deadline;
 }
 
-void SpringSolver::explore(const SpringOptions& options, const Stop& should_stop, SolveReport& report) {
+template <class Other>
+void SpringSolver::keep_if_better(SolveReport& report, Other other) {
   springs::copy(state_, kept_);
   const double cost = cost_;
   const SolveStatus status = report.status;
-  search(options, should_stop, report);
-  report.branch_changed = cost_ < kClearlyBetter * cost;
+  report.branch_changed = other();
   if (report.branch_changed) return;
   springs::copy(kept_, state_);
   cost_ = cost;
   report.status = status;
+}
+
+void SpringSolver::explore(const SpringOptions& options, const Stop& should_stop, SolveReport& report) {
+  const double cost = cost_;
+  keep_if_better(report, [&] {
+    search(options, should_stop, report);
+    return cost_ < kClearlyBetter * cost;
+  });
 }
 
 // All levels at once, the earlier ones by far the stiffer: near to where they end when they are taken one by one.
@@ -88,23 +96,16 @@ void SpringSolver::explore_levels(std::span<const SpringGoal> goals, const Sprin
   sum_levels(goals, sums_);
   const auto reached = [](const Level& level) { return level.cost <= level.weight * kReachedRms * kReachedRms; };
   if (std::all_of(sums_.begin(), sums_.end(), reached)) return;
-  springs::copy(state_, kept_);
-  const double cost = cost_;
-  const SolveStatus status = report.status;
-  springs::copy(start_, state_);
-  search_levels(goals, options, should_stop, report);
-  if (report.status != SolveStatus::deadline) {
+  keep_if_better(report, [&] {
+    springs::copy(start_, state_);
+    search_levels(goals, options, should_stop, report);
+    if (report.status == SolveStatus::deadline) return false;
     begin_levels(goals, options);
     take_levels(goals, options, should_stop, report);
-  }
-  if (report.status != SolveStatus::deadline) {
+    if (report.status == SolveStatus::deadline) return false;
     sum_levels(goals, other_sums_);
-    report.branch_changed = clearly_better(other_sums_, sums_);
-  }
-  if (report.branch_changed) return;
-  springs::copy(kept_, state_);
-  cost_ = cost;
-  report.status = status;
+    return clearly_better(other_sums_, sums_);
+  });
 }
 
 // As its goals stand at state_.

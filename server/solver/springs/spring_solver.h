@@ -123,6 +123,9 @@ class SpringSolver {
   void go_far(const SpringOptions& options, const Stop& should_stop, SolveReport& report);
   void search(const SpringOptions& options, const Stop& should_stop, SolveReport& report);
   void explore(const SpringOptions& options, const Stop& should_stop, SolveReport& report);
+  // `other` brings another answer to state_, and says whether it is to be kept.
+  template <class Other>
+  void keep_if_better(SolveReport& report, Other other);
   springs::Answer descend(const springs::Tuning& tuning, const Stop& should_stop, SolveReport& report);
 
   void explain(std::span<const SpringGoal> goals, const SpringOptions& options, SpringPose& out);
