@@ -5,6 +5,7 @@
 #include "server/scene/errors.h"
 #include "server/scene/joint_value.h"
 #include "server/solver/figure_check.h"
+#include "server/solver/goals/balance.h"
 #include "server/solver/kinematics.h"
 #include "server/solver/tempus.h"
 
@@ -144,6 +145,12 @@ class Resolver {
         spring.support.push_back(*place);
       else
         append_support(place->segment, tree_, spring.support);
+    }
+    if (spring.support.size() > springs::kMostSupports) {
+      return Error{"out_of_range",
+                   "the supports have " + std::to_string(spring.support.size()) + " points, at most " +
+                       std::to_string(springs::kMostSupports) + " can count",
+                   "/balance/support", R"(name fewer, or one point of each: {"segment":"paw","point":[0,0,0]})"};
     }
     return Spring(std::move(spring));
   }

@@ -39,22 +39,72 @@ Worlds place(const Figures& figures, const AllQ& q) {
   return worlds;
 }
 
-// Signed distance from the hull of points: over all ways u, the most that `mass` is farther along u than they are.
-double outside_of(const std::vector<Vec3>& points, const Vec3& mass) {
-  double most = -1e300;
-  const auto try_way = [&](Vec3 u) {
-    u.z = 0.0;
-    if (glm::length(u) < 1e-12) return;
-    u = glm::normalize(u);
-    double farthest = -1e300;
-    for (const Vec3& p : points) farthest = std::max(farthest, glm::dot(p, u));
-    most = std::max(most, glm::dot(mass, u) - farthest);
-  };
+// Seen from above, a half-plane: what is at most `most` along `way`.
+struct Half {
+  glm::dvec2 way;
+  double most;
+};
+
+// Of the hull of points: of each line through two of them that has all others on one side.
+std::vector<Half> sides_of(const std::vector<Vec3>& points) {
+  std::vector<Half> sides;
   for (const Vec3& a : points) {
-    try_way(mass - a);
-    for (const Vec3& b : points) try_way(glm::cross(b - a, kZ));
+    for (const Vec3& b : points) {
+      const glm::dvec2 way(b.y - a.y, a.x - b.x);
+      if (glm::length(way) < 1e-12) continue;
+      const Half half{glm::normalize(way), glm::dot(glm::dvec2(a), glm::normalize(way))};
+      const auto beyond = [&](const Vec3& p) { return glm::dot(glm::dvec2(p), half.way) > half.most + 1e-12; };
+      if (std::none_of(points.begin(), points.end(), beyond)) sides.push_back(half);
+    }
   }
-  return most;
+  return sides;
+}
+
+// Distance from the points that all halves hold; of points on a line from the nearest of them. By trial: the nearest
+// place is on one side, or where two of them meet.
+double outside_of(const std::vector<Half>& sides, const glm::dvec2& mass) {
+  const auto holds = [&](const glm::dvec2& p) {
+    return std::all_of(sides.begin(), sides.end(), [&](const Half& s) { return glm::dot(p, s.way) <= s.most + 1e-9; });
+  };
+  if (holds(mass)) return 0.0;
+  double least = 1e300;
+  const auto try_place = [&](const glm::dvec2& p) {
+    if (holds(p)) least = std::min(least, glm::length(mass - p));
+  };
+  for (const Half& a : sides) {
+    try_place(mass - a.way * (glm::dot(mass, a.way) - a.most));
+    for (const Half& b : sides) {
+      const double turn = a.way.x * b.way.y - a.way.y * b.way.x;
+      if (std::abs(turn) < 1e-9) continue;
+      try_place(glm::dvec2(a.most * b.way.y - b.most * a.way.y, b.most * a.way.x - a.most * b.way.x) / turn);
+    }
+  }
+  return least;
+}
+
+double outside_of(const std::vector<Vec3>& points, const glm::dvec2& mass, double margin) {
+  std::vector<Half> sides = sides_of(points);
+  // A line has two sides that are one, and its ends have none.
+  const bool line = std::any_of(sides.begin(), sides.end(), [&](const Half& a) {
+    return std::any_of(sides.begin(), sides.end(), [&](const Half& b) {
+      return glm::dot(a.way, b.way) < -1.0 + 1e-12 && std::abs(a.most + b.most) < 1e-9;
+    });
+  });
+  if (sides.empty()) return glm::length(mass - glm::dvec2(points[0]));
+  if (line) {
+    double least = 1e300;
+    for (const Vec3& a : points) {
+      for (const Vec3& b : points) {
+        const glm::dvec2 from(a), along = glm::dvec2(b) - from;
+        const double length2 = std::max(glm::dot(along, along), 1e-300);
+        const double share = std::clamp(glm::dot(mass - from, along) / length2, 0.0, 1.0);
+        least = std::min(least, glm::length(mass - from - along * share));
+      }
+    }
+    return least;
+  }
+  for (Half& side : sides) side.most -= margin;
+  return outside_of(sides, mass);
 }
 
 double balance_error(const BodyTree& tree, const BalanceSpring& balance, const std::vector<Transform>& world) {
@@ -66,7 +116,7 @@ double balance_error(const BodyTree& tree, const BalanceSpring& balance, const s
   }
   std::vector<Vec3> points;
   for (const AttachedPoint& p : balance.support) points.push_back(world[at(p.segment)] * p.point);
-  return std::max(0.0, outside_of(points, mass / kg) + balance.margin);
+  return outside_of(points, glm::dvec2(mass / kg), balance.margin);
 }
 
 double posture_error2(const BodyTree& tree, const PostureSpring& posture, const std::vector<double>& q) {

@@ -1,8 +1,9 @@
 import { describe, expect, it } from "vitest";
 import type { Quat, Vec3 } from "../src/protocol/types";
-import type { ChosenSegment } from "../src/state/model";
+import type { ChosenSegment, Model } from "../src/state/model";
 import { apply, compose, into, multiply, rotate, unit } from "../src/state/place";
-import { axisName, jointTurn, universalAngles, universalTurn } from "../src/tools/joints";
+import { axisName, jointTurn, toggleLock, universalAngles, universalTurn } from "../src/tools/joints";
+import type { Requests } from "../src/tools/requests";
 
 const near = (a: readonly number[], b: readonly number[], digits = 5) => a.forEach((value, i) => expect(value).toBeCloseTo(b[i]!, digits));
 
@@ -47,5 +48,25 @@ describe("a joint by hand", () => {
       document: { name: "a", touch_point: [0, 0, 1], joint: { name: "j", type: "ball", position: [0, 0, 0], quat_xyzw: rest } },
     } as unknown as ChosenSegment;
     near(multiply(multiply(parent, rest), jointTurn(chosen, world)), world);
+  });
+});
+
+describe("a joint's padlock", () => {
+  // The panel reads joints at its leisure: locked with what it showed, a joint that had just been bent went back.
+  it("holds the joint as the daemon has it", async () => {
+    const edits: object[] = [];
+    const model = { scene: { document: { goals: {} } } } as unknown as Model;
+    const requests = {
+      readJoint: () => Promise.resolve({ figure: "body", joint: "elbow", value: [0, 0, 0.6, 0.8] }),
+      edit: (method: string, params: object) => edits.push({ method, ...params }),
+    } as unknown as Requests;
+    await toggleLock(model, requests, "body", "elbow");
+    expect(edits).toMatchObject([{ method: "goal.set", id: "body.elbow.lock", posture: { joints: { elbow: [0, 0, 0.6, 0.8] } } }]);
+  });
+
+  it("stays open where the joint can not be read", async () => {
+    const model = { scene: { document: { goals: {} } } } as unknown as Model;
+    const requests = { readJoint: () => Promise.resolve(undefined), edit: () => expect.fail("an edit") } as unknown as Requests;
+    await toggleLock(model, requests, "body", "elbow");
   });
 });

@@ -41,7 +41,6 @@ class Memory {
   }
   HWY_INLINE T& add() { return data()[size_++]; }
   HWY_INLINE void clear() { size_ = 0; }
-  HWY_INLINE void copy(const Memory& from) { std::memcpy(bytes_.get(), from.bytes_.get(), size_ * sizeof(T)); }
 
   HWY_INLINE std::size_t size() const { return size_; }
   HWY_INLINE bool empty() const { return size_ == 0; }

@@ -25,7 +25,6 @@ class Newton {
   void resize(const Plan& plan, std::size_t ties, std::size_t tie_parts) {
     loads_.resize(plan.links.size());
     slopes_.resize(plan.links.size());
-    raw_slopes_.resize(plan.links.size());
     motions_.resize(plan.links.size());
     roots_.resize(plan.links.size());
     columns_.resize(plan.dofs.size());
@@ -36,6 +35,9 @@ class Newton {
     parts_.reserve(tie_parts);
     tie_matrix_.resize(ties * ties);
     tie_slopes_.resize(ties);
+    // The last share is the tree's own.
+    tie_columns_.resize((ties + 1) * plan.dofs.size());
+    tie_roots_.resize((ties + 1) * plan.links.size());
   }
 
   void clear() {
@@ -62,10 +64,6 @@ class Newton {
   // promises to lose.
   Mask<T> factor(const Plan& plan, const Steps<T>& at, const Kinematics<T>& figure, const T& damping, bool by_effort,
                  const T& newton, T& gain) {
-    if (!ties_.empty()) {
-      for (std::size_t i = 0; i < loads_.size(); ++i) slopes_[i] = loads_[i].slope;
-      raw_slopes_.copy(slopes_);
-    }
     T concave(0.0);
     gain = T(0.0);
     for (std::size_t i = plan.links.size(); i-- > 0;) {
@@ -337,17 +335,14 @@ class Newton {
       m.turn += axis * x;
   }
 
-  // The tree's answer to slopes_: motions_. Bounds are not looked at, but for those that pinned a joint.
-  void respond(const Plan& plan, const Kinematics<T>& figure, bool with_springs) {
+  // The tree's answer to slopes_ alone: what columns_ say of slopes, and motions_. Bounds are not looked at, but for
+  // those that pinned a joint.
+  void respond(const Plan& plan, const Kinematics<T>& figure) {
     T gain(0.0);
     for (std::size_t i = plan.links.size(); i-- > 0;) {
       const Link& link = plan.links[i];
       Wrench<T> slope = slopes_[i];
       if (link.kind == LinkKind::floating) {
-        if (with_springs && plan.sprung()) {
-          const T* s = &spring_slopes_[static_cast<std::size_t>(link.dof)];
-          slope += {{s[3], s[4], s[5]}, {s[0], s[1], s[2]}};
-        }
         motions_[i] = root_motion(plan, link, i, slope, gain);
         continue;
       }
@@ -355,9 +350,7 @@ class Newton {
         const auto k = static_cast<std::size_t>(j);
         Column& c = columns_[k];
         c.slope = dot(plan.dofs[k].kind == DofKind::along_axis ? slope.shift : slope.turn, figure.axis(k));
-        if (with_springs && plan.sprung()) c.slope = c.slope + spring_slopes_[k];
-        T share = c.slope * c.inverse;
-        if (with_springs) share = select(stopped_[k] > T(0.0), -stops_[k], share);
+        const T share = c.slope * c.inverse;
         slope.turn -= c.turn * share;
         slope.shift -= c.shift * share;
       }
@@ -365,14 +358,43 @@ class Newton {
       const V3<T> arm = figure.placed(static_cast<int>(i)).centre - figure.placed(link.parent).centre;
       slopes_[static_cast<std::size_t>(link.parent)] += {slope.turn + cross(arm, slope.shift), slope.shift};
     }
+    follow(plan, figure, false);
+  }
+
+  // From what columns_ say to motions_.
+  void follow(const Plan& plan, const Kinematics<T>& figure, bool whole) {
     for (std::size_t i = 0; i < plan.links.size(); ++i) {
       const Link& link = plan.links[i];
       if (link.kind == LinkKind::floating) continue;
       carry(link, i, figure);
       for (int j = link.dof; j < link.dof + link.dofs; ++j) {
         const auto k = static_cast<std::size_t>(j);
-        move(plan.dofs[k], figure.axis(k), share(k, motions_[i], with_springs), motions_[i]);
+        move(plan.dofs[k], figure.axis(k), share(k, motions_[i], whole), motions_[i]);
       }
+    }
+  }
+
+  // What columns_ and motions_ of roots say: of a tie, or (after the last of them) of the tree by itself.
+  void keep_answer(const Plan& plan, std::size_t tie) {
+    T* columns = &tie_columns_[tie * columns_.size()];
+    for (std::size_t k = 0; k < columns_.size(); ++k) columns[k] = columns_[k].slope;
+    Wrench<T>* roots = &tie_roots_[tie * motions_.size()];
+    for (std::size_t i = 0; i < plan.links.size(); ++i) {
+      if (plan.links[i].kind == LinkKind::floating) roots[i] = motions_[i];
+    }
+  }
+  void sum_answers(const Plan& plan, std::size_t ties) {
+    const T* columns = &tie_columns_[ties * columns_.size()];
+    for (std::size_t k = 0; k < columns_.size(); ++k) columns_[k].slope = columns[k];
+    for (std::size_t a = 0; a < ties; ++a) {
+      const T* of_tie = &tie_columns_[a * columns_.size()];
+      for (std::size_t k = 0; k < columns_.size(); ++k)
+        columns_[k].slope = columns_[k].slope + of_tie[k] * tie_slopes_[a];
+    }
+    for (std::size_t i = 0; i < plan.links.size(); ++i) {
+      if (plan.links[i].kind != LinkKind::floating) continue;
+      motions_[i] = tie_roots_[ties * motions_.size() + i];
+      for (std::size_t a = 0; a < ties; ++a) motions_[i] += tie_roots_[a * motions_.size() + i] * tie_slopes_[a];
     }
   }
 
@@ -388,24 +410,24 @@ class Newton {
   }
 
   // (tree + sum of weight row row') step = -slope: the ties' own pulls y solve (1/weight + row tree^-1 row') y = row x,
-  // with x the step of the tree alone; then they are slopes like any other. Returns how many directions in which the
-  // tree is concave are made convex by ties (Sylvester's law of inertia); takes from `gain` what they hold back.
+  // with x the step of the tree alone; the answer is that step and those of the ties by their pulls. Returns how many
+  // directions in which the tree is concave are made convex by ties (Sylvester's law of inertia); takes from `gain`
+  // what they hold back.
   T bring_in_ties(const Plan& plan, const Kinematics<T>& figure, T& gain) {
     const std::size_t n = ties_.size();
-    slopes_.copy(raw_slopes_);
-    respond(plan, figure, true);
+    keep_answer(plan, n);
+    follow(plan, figure, true);
     for (std::size_t a = 0; a < n; ++a) tie_slopes_[a] = along(ties_[a]);
     for (std::size_t b = 0; b < n; ++b) {
       for (Wrench<T>& s : slopes_) s.clear();
       pull_at(ties_[b], T(1.0));
-      respond(plan, figure, false);
+      respond(plan, figure);
+      keep_answer(plan, b);
       for (std::size_t a = 0; a < n; ++a) tie_matrix_[a * n + b] = -along(ties_[a]);
       tie_matrix_[b * n + b] = tie_matrix_[b * n + b] + T(1.0) / ties_[b].weight;
     }
     const T mended = solve_ties(n, gain);
-    slopes_.copy(raw_slopes_);
-    for (std::size_t a = 0; a < n; ++a) pull_at(ties_[a], tie_slopes_[a]);
-    respond(plan, figure, true);
+    sum_answers(plan, n);
     return mended;
   }
 
@@ -434,7 +456,7 @@ class Newton {
   }
 
   Memory<Load<T>> loads_;
-  Memory<Wrench<T>> slopes_, raw_slopes_, motions_;
+  Memory<Wrench<T>> slopes_, motions_;
   Memory<RootFactor<T>> roots_;
   Memory<Column> columns_;
   Memory<T> spring_slopes_;
@@ -442,6 +464,9 @@ class Newton {
   Memory<Tie> ties_;
   Memory<Part> parts_;
   Memory<T> tie_matrix_, tie_slopes_;
+  // One share a tie: its pull's answers in columns_, and those of roots in motions_.
+  Memory<T> tie_columns_;
+  Memory<Wrench<T>> tie_roots_;
 };
 
 }  // namespace posed::springs::HWY_NAMESPACE

@@ -56,7 +56,7 @@ TermErrors Probe::errors(const Plan& plan, const Term& term) const {
   TermErrors result;
   if (term.kind == TermKind::balance) {
     result.count = 1;
-    result.error[0] = here::stand(plan, term, inside_->figure).error;
+    result.error[0] = here::stand(plan, term, inside_->figure, 0.0).error;
     return result;
   }
   here::Base<double> base;

@@ -111,7 +111,7 @@ template <class T>
 HWY_INLINE T cost_of(const Plan& plan, const Term& term, const Kinematics<T>& figure) {
   const T weight(term.weight), zero(0.0);
   if (term.kind == TermKind::balance) {
-    const T error = most(stand(plan, term, figure).error - T(term.shift[0]), zero);
+    const T error = most(stand(plan, term, figure, term.shift[0]).error, zero);
     return error * error * weight;
   }
   const Placed<T>& segment = figure.placed(term.link);

@@ -15,8 +15,8 @@ namespace {
 constexpr double kClearlyBetter = 0.7;
 // What may be lost of an earlier level by the way in which it is held, m (root mean square), and as a share.
 constexpr double kHeldRms = 1e-5, kHeldShare = 1e-3;
-// Of the first level against the last, where all are sought at once.
-constexpr double kMostStiff = 1e6;
+// Where all are sought at once, a level against the next, and the first against the last.
+constexpr double kStiff = 1e3, kMostStiff = 1e6;
 
 }  // namespace
 

@@ -116,8 +116,8 @@ void SpringSolver::prepare(std::span<const SpringGoal> goals) {
   }
   std::sort(levels_.begin(), levels_.end());
   levels_.erase(std::unique(levels_.begin(), levels_.end()), levels_.end());
-  plan_.terms = terms_;
-  for (springs::State* state : {&state_, &start_, &kept_, &origin_, &posture_}) springs::resize(plan_, *state);
+  plan_.terms = begun_terms_ = terms_;
+  for (springs::State* state : {&state_, &start_, &kept_, &origin_, &posture_, &begun_}) springs::resize(plan_, *state);
   angles_.resize(plan_);
   std::size_t rests = plan_.links.size();
   for (const SpringGoal& goal : goals) {
@@ -279,7 +279,7 @@ Tuning SpringSolver::tuning(const SpringOptions& options) const {
   const double sum = weights(), step = 0.3 * options.accuracy, rest = std::max(0.2 * options.accuracy, 1e-10);
   Tuning t;
   t.by_effort = true;
-  t.relative_gain = options.accuracy > 0.0 ? 1e-6 : 1e-20;
+  t.relative_gain = std::max(options.accuracy > 0.0 ? 1e-6 : 1e-20, rough_);
   t.least_gain = sum * step * step;
   t.enough = sum * rest * rest;
   t.least_cost = sum * 1e-12;

@@ -83,7 +83,6 @@ class SpringSolver {
     double weight = 0.0, cost = 0.0;  // sums over its goals
   };
   static constexpr double kReachedRms = 1e-3;  // m, weighted: better is no other start than what reaches this
-  static constexpr double kStiff = 1e3;        // the heaviest goal of a level against the heaviest of the next
   static double heaviest(std::span<const SpringGoal> goals, int level);
   static bool clearly_better(std::span<const Level> now, std::span<const Level> before);
 
@@ -118,6 +117,11 @@ class SpringSolver {
   void search_levels(std::span<const SpringGoal> goals, const SpringOptions& options, const Stop& should_stop,
                      SolveReport& report);
   void sum_levels(std::span<const SpringGoal> goals, std::vector<Level>& levels);
+  bool balance_held(std::span<const SpringGoal> goals, int level, const SpringOptions& options, const Stop& should_stop,
+                    SolveReport& report);
+  bool hold(std::span<const SpringGoal> goals, int level, const SpringOptions& options, const Stop& should_stop,
+            SolveReport& report);
+  void stiffen(std::span<const SpringGoal> goals, int level, double factor);
   double shift_held(std::span<const SpringGoal> goals, int level);
   bool balance(const SpringOptions& options, const Stop& should_stop, SolveReport& report);
   void go_far(const SpringOptions& options, const Stop& should_stop, SolveReport& report);
@@ -140,15 +144,17 @@ class SpringSolver {
   std::vector<Whole> whole_;                       // of each figure
   std::vector<int> levels_;                        // priorities in use, in their order
   std::vector<springs::Term> terms_;               // of all goals; plan_.terms has them as the level sees them
+  std::vector<springs::Term> begun_terms_;         // plan_.terms as a level began
   std::vector<Held> held_;                         // one a term
   std::vector<Level> sums_, other_sums_;           // one a level
   std::vector<double> slope_;                      // one a degree of freedom
   std::vector<springs::State> starts_, lanes_;
-  springs::State state_, start_, kept_, origin_, posture_;
+  springs::State state_, start_, kept_, origin_, posture_, begun_;
   springs::JointAngles angles_;
   std::vector<std::vector<double>> posture_q_;
   std::size_t own_rests_ = 0;  // of posture goals, while the start pose holds, too
   double cost_ = 0.0;
+  double rough_ = 0.0;  // the share of the cost that a descent may leave to those that follow
 };
 
 }  // namespace posed

@@ -109,6 +109,16 @@ TEST_F(GoalKinds, FeetSupportWithTheirSoles) {
   EXPECT_EQ(std::get<BalanceSpring>(points.spring).support.size(), 3u);
 }
 
+// Points beyond the sixteenth did not count, and nobody was told.
+TEST_F(GoalKinds, SupportsOfManyPointsAllCountOrAreRefused) {
+  GoalEdit edit = at("");
+  edit.balance = BalanceTarget{std::vector<Attachment>(16, {"left_foot", {}, ""}), 0.0};
+  const SpringGoal goal = spring(set(edit));
+  EXPECT_EQ(std::get<BalanceSpring>(goal.spring).support.size(), 64u);
+  edit.balance->support.push_back({"right_foot", {}, ""});
+  expect_refused("out_of_range", "/balance/support", [&] { return scene.set_goal(edit, {}); });
+}
+
 TEST_F(GoalKinds, APostureOfTheWholeBodyLeavesTheRootAlone) {
   GoalEdit edit = at("");
   edit.posture = PostureTarget{"rest", {}};

@@ -27,8 +27,8 @@ async function choosesByClick({ page }) {
   const at = await project(page, "front", [place[0], place[1], place[2] - 0.2]);
   await page.mouse.click(at.x, at.y);
   await until(async () => (await state(page)).selected.segment?.segment === "left_upper_leg", "the thigh to be chosen");
-  assert.equal(await page.getByTestId("tab-body").getAttribute("aria-selected"), "true");
-  assert.match(await page.getByTestId("joint-panel").textContent(), /left hip/);
+  await until(async () => (await page.getByTestId("tab-body").getAttribute("aria-selected")) === "true", "the tab to open");
+  await until(async () => /left hip/.test(await page.getByTestId("joint-panel").textContent()), "the joint in the panel");
 }
 
 async function pins({ page }) {

@@ -58,7 +58,7 @@ export class JointPanel extends Panel {
       ${mine ? this.sliders(chosen, mine) : nothing}
       <div class="line wrap">
         <button type="button" class="lock" data-testid="joint-lock" aria-pressed=${locked} ?disabled=${!mine || !this.model.mayEdit || joint.type === "free" || joint.type === "fixed"}
-          title="Holds this joint against the goals (J)" @click=${clicked(() => toggleLock(this.model, this.requests, chosen.figure, joint.name, mine))}>${padlock(locked)} ${locked ? "joint held" : "hold joint"}</button>
+          title="Holds this joint against the goals (J)" @click=${clicked(() => void toggleLock(this.model, this.requests, chosen.figure, joint.name))}>${padlock(locked)} ${locked ? "joint held" : "hold joint"}</button>
         ${this.pin(chosen)}
       </div>`;
   }

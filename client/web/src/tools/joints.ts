@@ -1,5 +1,5 @@
 // Joints set by hand: by the paper's half-plane, deviation and twist, by turning the segment, and held by a padlock.
-import type { JointReply, JointValue, Quat, Transform, Vec3 } from "../protocol/types";
+import type { JointValue, Quat, Transform, Vec3 } from "../protocol/types";
 import type { ChosenSegment, Model } from "../state/model";
 import { conjugate, identity, multiply, quatOf, rotate, tidy, unit } from "../state/place";
 import type { Edit, Requests } from "./requests";
@@ -74,13 +74,14 @@ function hingeAngle([x, y, z, w]: Quat, axis: number[]): number {
   return 2 * Math.atan2(x * axis[0]! + y * axis[1]! + z * axis[2]!, w);
 }
 
-export function toggleLock(model: Model, requests: Requests, figure: string, joint: string, now: JointReply | null): void {
+/** Holds the joint as it stands when the daemon is asked: what a panel shows may be a moment old. */
+export async function toggleLock(model: Model, requests: Requests, figure: string, joint: string): Promise<void> {
   const lock = lockOf(model, figure, joint);
-  if (lock) requests.removeGoal(lock);
-  else if (now) {
-    const posture = { joints: { [joint]: now.value } };
-    void requests.edit("goal.set", { id: lockId(figure, joint), figure, posture, weight: kLockWeight, label: `${joint.replaceAll("_", " ")} held` });
-  }
+  if (lock) return requests.removeGoal(lock);
+  const now = await requests.readJoint(figure, joint);
+  if (!now) return;
+  const posture = { joints: { [joint]: now.value } };
+  void requests.edit("goal.set", { id: lockId(figure, joint), figure, posture, weight: kLockWeight, label: `${joint.replaceAll("_", " ")} held` });
 }
 
 /** A universal joint's two angles, about its first axis and then its second, which stand on each other. */

@@ -142,7 +142,7 @@ async function lockChosen(model: Model, requests: Requests): Promise<void> {
   const chosen = model.chosenSegment();
   const joint = chosen?.document.joint;
   if (!chosen || !joint || !model.mayEdit) return;
-  toggleLock(model, requests, chosen.figure, joint.name, (await requests.readJoint(chosen.figure, joint.name)) ?? null);
+  await toggleLock(model, requests, chosen.figure, joint.name);
 }
 
 function isField(target: EventTarget | null): boolean {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/server/solver/goals/derivative_check.h"
 
 namespace posed {
@@ -33,6 +35,16 @@ TEST(BalanceGoal, OnAnArea) {
   });
 }
 
+// Where edges have moved in, corners lie between no supports.
+TEST(BalanceGoal, InsideAMargin) {
+  test::check_alone_at_random([](std::mt19937& random, const BodyTree& tree) {
+    std::vector<AttachedPoint> support;
+    for (const Vec3& corner : {Vec3(1, 1, 0), Vec3(1, -1, 0), Vec3(-1, 1, 0), Vec3(-1, -1, 0), Vec3(2, 0, 0)})
+      support.push_back({test::pick(random, tree.size()), 2.0 * corner + test::random_point(random, 0.2)});
+    return balance(support, 0.1);
+  });
+}
+
 using springs::Ground;
 
 const std::vector<Ground> kSquare = {{-1, -1}, {1, 1}, {1, -1}, {-1, 1}, {0, 0}};
@@ -42,6 +54,35 @@ TEST(Footing, TellsHowFarOutside) {
   EXPECT_NEAR(springs::footing(kSquare, {4, 5}, 0.0).outside, 5.0, 1e-12);
   EXPECT_NEAR(springs::footing(kSquare, {0.75, 0}, 0.0).outside, -0.25, 1e-12);
   EXPECT_NEAR(springs::footing(kSquare, {0.75, 0}, 0.5).outside, 0.25, 1e-12);
+}
+
+// The distance from a region with corners: told by the nearest edge alone it had ridges there, and a centre of mass
+// that had to come in between two edges stood still on one.
+TEST(Footing, InACornerOfTheMarginItIsTheCornerThatIsNear) {
+  const auto f = springs::footing(kSquare, {0.8, 0.9}, 0.5);
+  EXPECT_NEAR(f.outside, 0.5, 1e-12);
+  EXPECT_NEAR(f.way_x, 0.6, 1e-12);
+  EXPECT_NEAR(f.way_y, 0.8, 1e-12);
+  EXPECT_NEAR(f.round, 0.5, 1e-12);
+}
+
+TEST(Footing, EdgesThatTheMarginSwallowsAreNoMore) {
+  std::vector<Ground> cut = kSquare;
+  cut[1] = {1, 0.9}, cut.push_back({0.9, 1});
+  EXPECT_NEAR(springs::footing(cut, {0.8, 0.9}, 0.5).outside, 0.5, 1e-12);
+  EXPECT_NEAR(springs::footing(cut, {0.98, 0.98}, 0.0).outside, 0.06 / std::sqrt(2.0), 1e-12);
+}
+
+TEST(Footing, MoreIsMoreOfTheMargin) {
+  for (const Ground& mass : {Ground{0.8, 0.9}, Ground{0.1, 0.2}, Ground{3, 0}}) {
+    EXPECT_NEAR(springs::footing(kSquare, mass, 0.2, 0.3).outside, springs::footing(kSquare, mass, 0.5).outside, 1e-12);
+    EXPECT_NEAR(springs::footing(kSquare, mass, 0.0, -0.3).outside, springs::footing(kSquare, mass, 0.0).outside - 0.3,
+                1e-12);
+    // There is no room for so much.
+    EXPECT_NEAR(springs::footing(kSquare, mass, 0.4, 2.0).outside, springs::footing(kSquare, mass, 0.9).outside + 1.5,
+                1e-12);
+    EXPECT_NEAR(springs::footing(kSquare, mass, 5.0).outside, springs::footing(kSquare, mass, 0.9).outside, 1e-12);
+  }
 }
 
 TEST(Footing, TheWayIsStraightOut) {
@@ -58,6 +99,12 @@ TEST(Footing, OnTheEdgeTheWayIsStillOut) {
     EXPECT_NEAR(f.outside, 0.1, 1e-12);
     EXPECT_GT(f.way_x * mass.x + f.way_y * mass.y, 0.9) << mass.x << " " << mass.y;
   }
+}
+
+TEST(Footing, AllPointsCount) {
+  std::vector<Ground> many(springs::kMostSupports - 1, Ground{0, 0});
+  many.push_back({5, 0});
+  EXPECT_NEAR(springs::footing(many, {7, 0}, 0.0).outside, 2.0, 1e-12);
 }
 
 TEST(Footing, PointsAtOnePlace) {
