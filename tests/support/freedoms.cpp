@@ -146,13 +146,16 @@ std::vector<Span> spans(const BodyTree& tree, std::span<const double> q, int i) 
 }
 
 double beyond_limits(const BodyTree& tree, std::span<const double> q, int i) {
-  double worst = 0.0;
-  worst = std::max(worst, beyond(spans(tree, q, i)));
+  double worst = beyond(spans(tree, q, i));
   if (is_limb(tree.joint(i))) {
-    for (const double beyond : beyond_swing(tree.segment(i), limb_pose(tree, q, i).direction))
-      worst = std::max(worst, beyond);
+    const LimbPose at = limb_pose(tree, q, i);
+    // Where a limb points straight back, all twists are one.
+    worst *= std::min(1.0, glm::length(at.rest + at.direction));
+    for (const double beyond : beyond_swing(tree.segment(i), at.direction)) worst = std::max(worst, beyond);
   } else if (tree.joint(i).type == JointType::universal) {
-    worst = std::max(worst, std::abs(universal_angles(quat_of(tree, q, i), tree.joint(i))[2]));
+    // The nearer the second angle is to a quarter turn, the more of the third the first can do.
+    const auto a = universal_angles(quat_of(tree, q, i), tree.joint(i));
+    worst = std::max(worst, std::abs(a[2] * std::cos(a[1])));
   }
   return worst;
 }

@@ -59,11 +59,12 @@ class Descent {
     const T cost = springs::HWY_NAMESPACE::cost(plan, trial_, figure_, newton_);
     const T before = cost_;
     // Near its rest the cost says no more; the step is good all the same.
-    const Mask<T> gained = cost <= before * T(1.0 + kRounding);
+    const Mask<T> blind = (magnitude(gain_) <= before * T(kBlind)) & (cost <= before * T(1.0 + kBlindRounding));
+    const Mask<T> gained = blind | (cost <= before * T(1.0 + kRounding));
     keep(gained, trial_.turns, at_.turns), keep(gained, trial_.more, at_.more);
     cost_ = select(gained, cost, before);
     const bool first = iterations_++ == 0;
-    if (!first) judge(before, cost, gained);
+    if (!first) judge(before, cost, gained, blind);
     give_up();
     done_ = select((cost_ <= T(tuning_.enough)) | (factor_ > T(kMostDamping)), one, done_);
     if (!any(done_ < T(0.5))) return false;
@@ -92,6 +93,8 @@ class Descent {
  private:
   static constexpr double kMostDamping = 1e6;
   static constexpr double kRounding = 4e-16;
+  // Steps that promise so little of the cost are not judged by it: the rounding of its sum is more.
+  static constexpr double kBlind = 1e-12, kBlindRounding = 1e-13;
   static constexpr int kSaddleTries = 2;
   static constexpr int kAgain = 3;
   static constexpr double kAtEdge = 1e-7;  // rad
@@ -156,10 +159,10 @@ class Descent {
   }
 
   // What the last step was worth.
-  HWY_INLINE void judge(const T& before, const T& cost, const Mask<T>& gained) {
+  HWY_INLINE void judge(const T& before, const T& cost, const Mask<T>& gained, const Mask<T>& blind) {
     const T zero(0.0), one(1.0);
     // Steps that bounds prescribe may promise less than nothing.
-    const T ratio = select(gain_ > zero, (before - cost) / most(gain_, T(1e-300)), zero);
+    const T ratio = select(blind, one, select(gain_ > zero, (before - cost) / most(gain_, T(1e-300)), zero));
     const T little = most(before * T(tuning_.relative_gain), T(tuning_.least_gain));
     done_ = select(gained & (magnitude(gain_) <= little), one, done_);
     const T change = select(ratio > T(0.5), T(0.5), select(ratio > T(0.25), one, T(2.0)));

@@ -12,6 +12,17 @@ double length(std::span<const double> v) {
   return std::sqrt(sum);
 }
 
+// Four sums side by side: one alone would wait for each addition.
+double dot(const double* a, const double* b, std::size_t n) {
+  double sum[4] = {0.0, 0.0, 0.0, 0.0};
+  std::size_t j = 0;
+  for (; j + 4 <= n; j += 4) {
+    for (std::size_t k = 0; k < 4; ++k) sum[k] += a[j + k] * b[j + k];
+  }
+  for (; j < n; ++j) sum[0] += a[j] * b[j];
+  return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
+
 Cause::Side side_of(Probe::Bound bound) {
   return bound == Probe::Bound::max   ? Cause::Side::max
          : bound == Probe::Bound::min ? Cause::Side::min
@@ -30,6 +41,9 @@ void Explainer::prepare(const Plan& plan, std::size_t goals) {
   apart_.resize(goals);
   bounds_.resize(dofs_);
   pulls_.reserve(goals);
+  felt_.resize(goals * (dofs_ / 4 + 1));
+  following_.resize(dofs_);
+  felt_from_.resize(goals + 1);
 }
 
 double Explainer::explain(const Plan& plan, std::span<const SpringGoal> goals,
@@ -63,12 +77,14 @@ double Explainer::explain(const Plan& plan, std::span<const SpringGoal> goals,
     // At the nearest that it can come a goal alone has no slope left: it is its pull that counts.
     scale = std::max({scale, length(slope(g)), kNoPull * std::sqrt(goals[g].weight * costs_[g])});
   }
-  for (std::size_t j = 0; j < dofs_; ++j) bounds_[j] = probe_.held(plan, state, j, total_);
-  for (const Link& link : plan.links) {
+  for (std::size_t i = 0; i < plan.links.size(); ++i) {
+    const Link& link = plan.links[i];
     for (std::size_t j = link.first_dof(); j < link.end_dof(); ++j) {
+      bounds_[j] = probe_.held(plan, state, i, j, total_);
       if (bounds_[j] == Probe::Bound::none && !link.pinned) most = std::max(most, std::abs(total_[j]));
     }
   }
+  find_felt(goals.size());
   for (std::size_t g = 0; g < goals.size(); ++g) {
     if (pulls(goals[g])) find_state(plan, goals, g, out);
   }
@@ -76,6 +92,23 @@ double Explainer::explain(const Plan& plan, std::span<const SpringGoal> goals,
   for (const Term& term : plan.terms) weights += term.weight;
   // Pulls of less than a nanometre are no pulls.
   return most / std::max({scale, 1e-9 * weights, 1e-300});
+}
+
+void Explainer::find_felt(std::size_t goals) {
+  std::size_t end = 0;
+  for (std::size_t g = 0; g < goals; ++g) {
+    felt_from_[g] = end;
+    const std::span<const double> feels = slope(g);
+    for (std::size_t j = 0; j < dofs_; ++j) {
+      if (feels[j] == 0.0 || bounds_[j] != Probe::Bound::none) continue;
+      // What lies between two that are near counts nothing, but breaks no loop.
+      if (end > felt_from_[g] && j < felt_[end - 1].to + 4)
+        felt_[end - 1].to = j + 1;
+      else
+        felt_[end++] = {j, j + 1};
+    }
+  }
+  felt_from_[goals] = end;
 }
 
 void Explainer::compare(const SpringGoal& goal, std::size_t index, double error, double reached) {
@@ -215,12 +248,12 @@ void Explainer::name_causes(const Plan& plan, std::span<const SpringGoal> goals,
   }
   // Goals that pull the other way, the strongest first.
   pulls_.clear();
+  for (std::size_t j = 0; j < dofs_; ++j) following_[j] = bounds_[j] == Probe::Bound::none ? mine[j] : 0.0;
   for (std::size_t g = 0; g < out.size(); ++g) {
+    if (g == index) continue;
     double product = 0.0;
-    for (std::size_t j = 0; g != index && j < dofs_; ++j) {
-      if (bounds_[j] == Probe::Bound::none) product += slope(g)[j] * mine[j];
-    }
-    if (g != index && goals[g].priority == kPinPriority && goals[g].at.segment == 0 && pulls(goals[g])) {
+    for (const Range& r : felt(g)) product += dot(&slope(g)[r.from], &following_[r.from], r.to - r.from);
+    if (goals[g].priority == kPinPriority && goals[g].at.segment == 0 && pulls(goals[g])) {
       // A root that is pinned whole stands still, so that its pin shows no pull of its own.
       for (const Link& link : plan.links) {
         if (!link.pinned || link.figure != goals[g].figure) continue;

@@ -48,11 +48,23 @@ class Explainer {
   void find_state(const Plan& plan, std::span<const SpringGoal> goals, std::size_t index, std::vector<GoalReport>& out);
   void name_causes(const Plan& plan, std::span<const SpringGoal> goals, std::size_t index, double held_by_limits,
                    std::vector<GoalReport>& out);
+  struct Range {
+    std::size_t from, to;
+  };
+  void find_felt(std::size_t goals);
+  std::span<const Range> felt(std::size_t goal) const {
+    return {felt_.data() + felt_from_[goal], felt_.data() + felt_from_[goal + 1]};
+  }
   std::span<double> slope(std::size_t goal) { return {slopes_.data() + goal * dofs_, dofs_}; }
 
   Probe probe_;
   std::size_t dofs_ = 0;
   std::vector<double> slopes_;  // of each goal, one a degree of freedom
+  // Of each goal, one after the other: the degrees of freedom that feel it and may follow. A goal far out on a large
+  // figure is felt by few.
+  std::vector<Range> felt_;
+  std::vector<std::size_t> felt_from_;
+  std::vector<double> following_;  // one goal's slope, 0 where a bound holds
   std::vector<double> total_, sprung_;
   std::vector<double> costs_;         // of each goal
   std::vector<double> apart_;         // of each goal: its error over what counts as reached

@@ -42,6 +42,9 @@ class Newton {
 
   void clear() {
     for (Load<T>& load : loads_) load.clear();
+    clear_ties();
+  }
+  void clear_ties() {
     ties_.clear();
     parts_.clear();
   }

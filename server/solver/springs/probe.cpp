@@ -14,23 +14,38 @@ struct Probe::Inside {
   here::Steps<double> at;
   here::Memory<here::Wrench<double>> wrenches;
 
+  // A link's joint feels the wrench on all below it.
+  void feel(const Plan& plan, std::size_t i, const here::Wrench<double>& w, std::span<double> slope) const {
+    const Link& link = plan.links[i];
+    const std::size_t first = link.first_dof();
+    if (link.kind == LinkKind::floating) {
+      const double parts[6] = {w.shift.x, w.shift.y, w.shift.z, w.turn.x, w.turn.y, w.turn.z};
+      for (std::size_t k = 0; k < 6; ++k) slope[first + k] += parts[k];
+    } else {
+      for (std::size_t j = first; j < first + static_cast<std::size_t>(link.dofs); ++j)
+        slope[j] += here::dot(plan.dofs[j].kind == DofKind::along_axis ? w.shift : w.turn, figure.axis(j));
+    }
+  }
+  here::Wrench<double> handed_down(const Plan& plan, std::size_t i, const here::Wrench<double>& w) const {
+    const auto arm = figure.placed(static_cast<int>(i)).centre - figure.placed(plan.links[i].parent).centre;
+    return {w.turn + here::cross(arm, w.shift), w.shift};
+  }
+
   // Hands the wrenches of all links down to the roots.
   void collect(const Plan& plan, std::span<double> slope) {
     for (std::size_t i = plan.links.size(); i-- > 0;) {
-      const Link& link = plan.links[i];
-      const here::Wrench<double>& w = wrenches[i];
-      const auto first = static_cast<std::size_t>(link.dof);
-      if (link.kind == LinkKind::floating) {
-        const double parts[6] = {w.shift.x, w.shift.y, w.shift.z, w.turn.x, w.turn.y, w.turn.z};
-        for (std::size_t k = 0; k < 6; ++k) slope[first + k] += parts[k];
-      } else {
-        for (std::size_t j = first; j < first + static_cast<std::size_t>(link.dofs); ++j) {
-          slope[j] += here::dot(plan.dofs[j].kind == DofKind::along_axis ? w.shift : w.turn, figure.axis(j));
-        }
-      }
-      if (link.parent < 0) continue;
-      const auto arm = figure.placed(static_cast<int>(i)).centre - figure.placed(link.parent).centre;
-      wrenches[static_cast<std::size_t>(link.parent)] += {w.turn + here::cross(arm, w.shift), w.shift};
+      feel(plan, i, wrenches[i], slope);
+      const int parent = plan.links[i].parent;
+      if (parent >= 0) wrenches[static_cast<std::size_t>(parent)] += handed_down(plan, i, wrenches[i]);
+    }
+  }
+  // Of one link alone, and forgets it.
+  void collect(const Plan& plan, int link, std::span<double> slope) {
+    here::Wrench<double> w = newton.load(link).slope;
+    newton.load(link).clear();
+    for (int i = link; i >= 0; i = plan.links[static_cast<std::size_t>(i)].parent) {
+      feel(plan, static_cast<std::size_t>(i), w, slope);
+      if (plan.links[static_cast<std::size_t>(i)].parent >= 0) w = handed_down(plan, static_cast<std::size_t>(i), w);
     }
   }
 };
@@ -43,6 +58,7 @@ void Probe::prepare(const Plan& plan) {
   inside_->newton.resize(plan, 3, std::max<std::size_t>(6, 2 * (plan.links.size() + plan.supports.size())));
   inside_->at.resize(plan);
   inside_->wrenches.resize(plan.links.size());
+  inside_->newton.clear();
 }
 
 void Probe::place(const Plan& plan, const State& state) {
@@ -71,12 +87,18 @@ TermErrors Probe::errors(const Plan& plan, const Term& term) const {
 
 void Probe::pull(const Plan& plan, const Term& term, std::span<double> slope) {
   Inside& in = *inside_;
-  in.newton.clear();
   Term unshifted = term;
   unshifted.shift = {0.0, 0.0, 0.0};
+  in.newton.clear_ties();
   here::pull_term(plan, unshifted, in.figure, in.newton);
+  if (term.kind != TermKind::balance) {
+    in.collect(plan, term.link, slope);
+    if (term.base >= 0) in.collect(plan, term.base, slope);
+    return;
+  }
   for (std::size_t i = 0; i < plan.links.size(); ++i) in.wrenches[i] = in.newton.load(static_cast<int>(i)).slope;
   in.collect(plan, slope);
+  in.newton.clear();
 }
 
 double Probe::pull(const Plan& plan, const Rest& rest, std::span<double> slope) {
@@ -111,19 +133,17 @@ Vec3 Probe::centre_of_mass(const Plan& plan, int figure) const {
   return sum;
 }
 
-Probe::Bound Probe::held(const Plan& plan, const State& state, std::size_t dof, std::span<const double> slopes) const {
+Probe::Bound Probe::held(const Plan& plan, const State& state, std::size_t link, std::size_t dof,
+                         std::span<const double> slopes) const {
   constexpr double kNear = 1e-7;
   const double slope = slopes[dof];
   if (slope < 0.0 && state.turns[dof] >= plan.most[dof] - kNear) return Bound::max;
   if (slope > 0.0 && state.turns[dof] <= plan.least[dof] + kNear) return Bound::min;
-  for (std::size_t i = 0; i < plan.links.size(); ++i) {
-    const Link& link = plan.links[i];
-    if (link.kind != LinkKind::limb) continue;
-    const auto& swinging = inside_->figure.swinging(i);
-    const auto first = static_cast<std::size_t>(link.dof);
-    if (dof == first && swinging.on_edge > 0.0 && slope < 0.0) return Bound::swing;
-    if (dof == first + 1 && swinging.in_corner(slopes[first], slope)) return Bound::swing;
-  }
+  if (plan.links[link].kind != LinkKind::limb) return Bound::none;
+  const auto& swinging = inside_->figure.swinging(link);
+  const auto first = static_cast<std::size_t>(plan.links[link].dof);
+  if (dof == first && swinging.on_edge > 0.0 && slope < 0.0) return Bound::swing;
+  if (dof == first + 1 && swinging.in_corner(slopes[first], slope)) return Bound::swing;
   return Bound::none;
 }
 

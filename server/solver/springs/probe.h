@@ -32,9 +32,11 @@ class Probe {
   Transform link(int link) const;                 // world_from_segment
   Vec3 centre_of_mass(const Plan& plan, int figure) const;
 
-  // Of a degree of freedom: is it at a bound that keeps it from following -slope (the way down)? `slopes`: of all.
+  // Of one of a link's degrees of freedom: is it at a bound that keeps it from following -slope (the way down)?
+  // `slopes`: of all.
   enum class Bound { none, min, max, swing };
-  Bound held(const Plan& plan, const State& state, std::size_t dof, std::span<const double> slopes) const;
+  Bound held(const Plan& plan, const State& state, std::size_t link, std::size_t dof,
+             std::span<const double> slopes) const;
 
  private:
   struct Inside;

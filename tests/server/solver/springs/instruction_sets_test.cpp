@@ -1,5 +1,6 @@
-// From a given start the answer is the same on every instruction set: costs to 1e-9, joints to 1e-6, since rounding
-// grows along the way. A cold solve out of reach may end in another valley.
+// From a given start the answer is the same on every instruction set: costs to 1e-9, and the joints of nearly all, too.
+// Where goals out of reach leave a joint all but free, rounding grows along the way. A cold solve out of reach may end
+// in another valley.
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
@@ -37,7 +38,7 @@ struct Solved {
 Solved solve_all() {
   Solved out;
   std::mt19937 random(131);
-  for (int n = 0; n < 30; ++n) {
+  for (int n = 0; n < 100; ++n) {
     SpringBench b(test::human());
     const double reach = n % 2 == 0 ? 0.4 : 1.5;
     for (const char* end : {"right_hand", "left_hand", "right_foot", "head"})
@@ -63,13 +64,16 @@ TEST(InstructionSets, GiveTheSameAnswer) {
   RecordProperty("instruction_sets", known);
   if (all.size() < 2) GTEST_SKIP() << "this build has one instruction set only:" << known;
   for (const Solved& other : all) {
+    int loose = 0;
     for (std::size_t n = 0; n < all[0].q.size(); ++n) {
       double apart = 0.0;
       for (std::size_t k = 0; k < all[0].q[n].size(); ++k)
         apart = std::max(apart, std::abs(all[0].q[n][k] - other.q[n][k]));
-      EXPECT_LT(apart, 1e-6) << all[0].on << " and " << other.on << ", problem " << n;
+      EXPECT_LT(apart, 1e-7) << all[0].on << " and " << other.on << ", problem " << n;
+      loose += apart > 1e-9;
       EXPECT_NEAR(all[0].costs[n], other.costs[n], 1e-9 * std::max(1.0, all[0].costs[n])) << other.on << " " << n;
     }
+    EXPECT_LE(loose, 5) << all[0].on << " and " << other.on;
   }
 }
 
