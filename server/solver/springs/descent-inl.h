@@ -99,7 +99,7 @@ class Descent {
   static constexpr int kAgain = 3;
   static constexpr double kAtEdge = 1e-7;  // rad
 
-  static constexpr int kAlignments = 4;
+  static constexpr int kAlignments = 3;
 
   void align_root(const Plan& plan, std::size_t root) {
     const auto m = static_cast<std::size_t>(plan.links[root].more);
@@ -150,9 +150,10 @@ class Descent {
     }
   }
 
-  static HWY_INLINE void keep(const Mask<T>& mask, const Memory<T>& from, Memory<T>& to) {
+  // One alone need not be copied: what was `to` is written anew by the next step.
+  static HWY_INLINE void keep(const Mask<T>& mask, Memory<T>& from, Memory<T>& to) {
     if constexpr (lanes_of<T>() == 1) {
-      if (mask) std::copy(from.begin(), from.end(), to.begin());
+      if (mask) to.swap(from);
       return;
     }
     for (std::size_t i = 0; i < to.size(); ++i) to[i] = select(mask, from[i], to[i]);

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstring>
 #include <type_traits>
+#include <utility>
 
 HWY_BEFORE_NAMESPACE();
 namespace posed::springs::HWY_NAMESPACE {
@@ -41,6 +42,11 @@ class Memory {
   }
   HWY_INLINE T& add() { return data()[size_++]; }
   HWY_INLINE void clear() { size_ = 0; }
+  HWY_INLINE void swap(Memory& other) {
+    bytes_.swap(other.bytes_);
+    std::swap(capacity_, other.capacity_);
+    std::swap(size_, other.size_);
+  }
 
   HWY_INLINE std::size_t size() const { return size_; }
   HWY_INLINE bool empty() const { return size_ == 0; }

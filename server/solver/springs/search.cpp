@@ -13,6 +13,7 @@ using springs::Tuning;
 namespace {
 
 constexpr double kClearlyBetter = 0.7;
+constexpr double kCloseEnough = 0.9;  // of the accuracy that is asked for
 // What may be lost of an earlier level by the way in which it is held, m (root mean square), and as a share.
 constexpr double kHeldRms = 1e-5, kHeldShare = 1e-3;
 // Where all are sought at once, a level against the next, and the first against the last.
@@ -29,6 +30,8 @@ void SpringSolver::search(const SpringOptions& options, const Stop& should_stop,
   t.by_effort = false;
   t.align = true;
   t.damping = 0.03;
+  t.least_damping = 0.01;  // it is a share of the cost, which falls by itself
+  t.enough = std::max(t.enough, sum * kCloseEnough * options.accuracy * kCloseEnough * options.accuracy);
   t.patience = 5;
   const springs::Answer first = descend(t, should_stop, report);
   if (first.stopped) return;
