@@ -155,7 +155,9 @@ class Region {
     int n = sides_;
     for (int k = 0; k < n; ++k) some[at(k)] = {first(k).x, first(k).y, k};
     for (int k = 0; moved > 0.0 && k < sides_; ++k) {
-      n = leave(k, -moved, {corners->data(), at(n)}, *cut);
+      const int left = leave(k, -moved, {corners->data(), at(n)}, *cut);
+      if (left < 3) break;  // too thin for its numbers
+      n = left;
       std::swap(corners, cut);
     }
     double nearest = 1e300, share = 0.0;

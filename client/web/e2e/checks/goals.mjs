@@ -41,6 +41,8 @@ export async function makeByClick(page, segment = "right_hand", view = "front") 
 async function still(page, view, point) {
   let last = await project(page, view, point);
   return until(async () => {
+    // On a busy machine two looks may fall between the same two frames.
+    await page.evaluate(() => new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn))));
     const now = await project(page, view, point);
     const same = Math.hypot(now.x - last.x, now.y - last.y) < 0.01;
     last = now;

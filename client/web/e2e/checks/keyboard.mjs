@@ -56,7 +56,7 @@ async function sheet({ page }) {
   const help = page.getByTestId("help-sheet");
   await help.waitFor();
   for (const says of ["Make a goal", "Undo what you did last", "Segment frames", "Pin the segment"]) assert.ok((await help.textContent()).includes(says), says);
-  assert.ok(await help.locator("img").evaluate((image) => image.complete && image.naturalWidth > 100), "its picture is there");
+  await until(() => help.locator("img").evaluate((image) => image.complete && image.naturalWidth > 100), "its picture");
   await page.keyboard.press("Escape");
   await help.waitFor({ state: "hidden" });
 }

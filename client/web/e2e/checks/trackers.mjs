@@ -36,7 +36,7 @@ const bindings = async (page) => Object.values((await state(page)).scene.binding
 async function lists({ page }) {
   await page.getByTestId("tab-trackers").click();
   await until(async () => (await page.getByTestId("tracker-state").textContent()) === "streaming", "a station that streams");
-  assert.match(await page.getByTestId("tracker-rate").textContent(), /^\d+ Hz$/);
+  await until(async () => /^\d+ Hz$/.test(await page.getByTestId("tracker-rate").textContent()), "its rate");
   await until(async () => /^\d+ ms ±\d+\.\d ms$/.test(await page.getByTestId("tracker-age").textContent()), "the age and evenness of its samples");
   await until(async () => /\d/.test(await page.getByTestId(`sensor-${sensor}`).getByTestId("sensor-place").textContent()), "a sensor's place");
 }

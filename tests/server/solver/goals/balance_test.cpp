@@ -101,6 +101,27 @@ TEST(Footing, OnTheEdgeTheWayIsStillOut) {
   }
 }
 
+// However thin the hull, and however far from the origin: there the margin leaves less than rounding does.
+TEST(Footing, ThinHullsHaveAnAnswer) {
+  std::mt19937 random(76);
+  for (int n = 0; n < 2000; ++n) {
+    const double thin = std::pow(10.0, -test::uniform(random, 0.0, 16.0));
+    const double away = n % 2 == 0 ? 0.0 : std::pow(10.0, test::uniform(random, 0.0, 6.0));
+    std::vector<Ground> supports;
+    for (int k = 0; k < 4; ++k) {
+      const Vec3 p = test::random_point(random, 1.0);
+      supports.push_back({away + p.x, away + 0.5 * p.x + thin * p.y});
+    }
+    const Vec3 p = test::random_point(random, 2.0);
+    for (const double more : {0.0, 0.1}) {
+      const auto f = springs::footing(supports, {away + p.x, away + p.y}, 0.05, more);
+      EXPECT_NEAR(std::hypot(f.way_x, f.way_y), 1.0, 1e-9) << n;
+      EXPECT_LT(std::abs(f.outside), 5.0) << n;
+      for (const auto& edge : f.edges) EXPECT_TRUE(std::isfinite(edge.of_way * edge.share)) << n;
+    }
+  }
+}
+
 TEST(Footing, AllPointsCount) {
   std::vector<Ground> many(springs::kMostSupports - 1, Ground{0, 0});
   many.push_back({5, 0});
