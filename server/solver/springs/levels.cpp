@@ -26,9 +26,9 @@ constexpr int kAttempts = 3;
 constexpr double kStiffer = 10.0, kSlow = 0.25;
 constexpr int kStiffenings = 4;
 constexpr int kRounds = 12;
-// What may be left of what was held, m: at the end, where a stream's accuracy allows it a share of that, and before the
-// level is tried again.
-constexpr double kHeldPlace = 1e-8, kHeldShare = 0.02, kLost = 1e-6;
+// What may be left of what was held, m: at the end, and before the level is tried again; a stream's accuracy allows
+// shares of it.
+constexpr double kHeldPlace = 1e-8, kHeldShare = 0.02, kLost = 1e-6, kLostShare = 0.5;
 // What a round may leave of the cost to the next one, as a share: of the first, against the one before, of the last.
 constexpr double kRough = 1e-4, kFiner = 1e-5, kFine = 1e-14, kFineInStream = 1e-6;
 constexpr double kRoundDamping = 1e-4;  // a round begins near to where it ends
@@ -132,6 +132,7 @@ void SpringSolver::stiffen(std::span<const SpringGoal> goals, int level, double 
 bool SpringSolver::hold(std::span<const SpringGoal> goals, int level, const SpringOptions& options,
                         const Stop& should_stop, SolveReport& report) {
   const double place = std::max(kHeldPlace, kHeldShare * options.accuracy);
+  const double lost = std::max(kLost, kLostShare * options.accuracy);
   const double fine = options.accuracy > 0.0 ? kFineInStream : kFine;
   double last = 0.0;
   int stiffenings = 0;
@@ -139,9 +140,9 @@ bool SpringSolver::hold(std::span<const SpringGoal> goals, int level, const Spri
     if (report.status == SolveStatus::deadline) return true;
     const double gave = shift_held(goals, level);
     if (gave <= place && rough_ <= fine) return true;
-    if (round == kRounds) return gave <= kLost;
+    if (round == kRounds) return gave <= lost;
     if (round > 0 && gave > place && gave > kSlow * last) {
-      if (stiffenings == kStiffenings && gave > kLost) return false;
+      if (stiffenings == kStiffenings && gave > lost) return false;
       if (stiffenings++ < kStiffenings) stiffen(goals, level, kStiffer);
     }
     last = gave;

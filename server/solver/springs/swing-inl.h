@@ -68,18 +68,18 @@ struct OnEllipse {
 
 template <class T>
 struct Swinging {
-  V3<T> direction;                  // of the limb
-  M3<T> rotation;                   // the shortest arc from its rest
-  V3<T> out, along;                 // unit tangents: away from where it may point, and along the edge
-  V3<T> turn_out, turn_along;       // turns that move it so, and keep its twist
+  V3<T> direction;             // of the limb
+  M3<T> rotation;              // the shortest arc from its rest
+  V3<T> out, along;            // unit tangents: away from where it may point, and along the edge
+  V3<T> turn_out, turn_along;  // turns that move it so, and keep its twist
+  // What a step x out and y along adds to the turn in second order, beyond one step after the other:
+  // (bend_out x^2 + 2 bend_both x y + bend_along y^2) / 2.
+  V3<T> bend_out, bend_both, bend_along;
   T on_edge;                        // 1: a step out is barred
   T room;                           // how far a step out may go
   T back, ahead;                    // on the edge: how far a step along may go, to the corners
   T round_back[2], round_ahead[2];  // at a corner: the way on along the next edge, its parts out and along
   T curvature;                      // of the edge: a step s along is one of -curvature s^2 / 2 out
-  // What a step x out and y along adds to the turn in second order, beyond one step after the other:
-  // (bend_out x^2 + 2 bend_both x y + bend_along y^2) / 2.
-  V3<T> bend_out, bend_both, bend_along;
 
   // The limb's direction and rotation; `see` has all the rest.
   HWY_INLINE void point(const Link& link, const V3<T>& d) {
