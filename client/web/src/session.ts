@@ -152,6 +152,7 @@ export class Session {
     model.setPeople(sessions);
     if (model.people.others.length === 0) return model.people.setHolds(new Map());
     const { goals } = await rpc.request<{ goals: Array<GoalDocument & { id: string; held_by?: string }> }>("goal.list");
+    // A hold of one's own outlives the hand until the daemon has its last word.
     const held = goals.flatMap(({ id, held_by }) => (held_by && !model.localTargets.has(id) ? [[id, held_by] as const] : []));
     model.people.setHolds(new Map(held));
     model.touch("people");

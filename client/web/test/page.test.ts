@@ -52,6 +52,15 @@ describe("a goal that is moved", () => {
 });
 
 describe("people", () => {
+  // With others there the page asks who holds what: its own hold came back, and took the goal out of its hand.
+  it("a goal in one's own hand is held by nobody else", () => {
+    const people = new People();
+    people.holding = "mine";
+    people.setHolds(new Map([["mine", "ana"], ["theirs", "bo"]]));
+    expect(people.holder("mine")).toBeUndefined();
+    expect(people.holder("theirs")).toBe("bo");
+  });
+
   it("are told by what they have just edited, for a while", () => {
     const people = new People();
     people.me = "s1";

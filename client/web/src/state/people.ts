@@ -12,7 +12,9 @@ interface Touch {
 export class People {
   me = "";
   sessions: SessionInfo[] = [];
-  /** By goal, as the daemon says it: a name. Only others'. */
+  /** The goal that is in this page's own hand. */
+  holding: string | null = null;
+  /** By goal, as the daemon says it: a name. */
   private holds = new Map<string, string>();
   private touched = new Map<string, Touch>();
 
@@ -30,8 +32,9 @@ export class People {
     this.holds = new Map(holds);
   }
 
+  /** Who else. */
   holder(goal: string): string | undefined {
-    return this.holds.get(goal);
+    return goal === this.holding ? undefined : this.holds.get(goal);
   }
 
   /** Notes an edit of others; true where it was one. */

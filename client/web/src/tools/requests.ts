@@ -17,7 +17,6 @@ export interface Edit {
 export class Requests {
   readonly outbox: Outbox;
   private readonly edits: GoalEdits;
-  private held: string | null = null;
   private gesture = "";
 
   constructor(
@@ -30,7 +29,7 @@ export class Requests {
     });
     this.edits = new GoalEdits((method, params) => this.outbox.edit(method, params), {
       settled: (goal, revision) => {
-        if (goal !== this.held) model.endLocalTarget(goal, revision);
+        if (goal !== model.people.holding) model.endLocalTarget(goal, revision);
       },
       failed: (error) => this.complain(error),
     });
@@ -47,7 +46,7 @@ export class Requests {
 
   /** Between hold and release the cube stays under the hand whatever the daemon answers, and others keep off. */
   holdGoal(goal: string): void {
-    this.held = goal;
+    this.model.people.holding = goal;
     this.gesture = newId();
     void this.call("goal.grab", { id: goal }).catch((error: unknown) => !(error instanceof ConnectionLost) && this.complain(error));
   }
@@ -69,7 +68,7 @@ export class Requests {
   }
 
   releaseGoal(id: string): void {
-    this.held = null;
+    this.model.people.holding = null;
     const local = this.model.localTargets.get(id);
     const there = id in this.model.scene.document.goals;
     // Sent once more, so that the reply that ends the echo is surely the last one.
