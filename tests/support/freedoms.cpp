@@ -47,6 +47,10 @@ std::array<double, 3> the_other(const std::array<double, 3>& a) {
   return {a[0] + M_PI, M_PI - a[1], a[2] + M_PI};
 }
 
+// Where two angles are one, neither is known better than rounding over how far it is to there: nearer than one over
+// this (rad) they count by that much less.
+constexpr double kNearOne = 10.0;
+
 // The third is what leads off the two axes.
 std::array<double, 3> universal_angles(const Quat& r, const Joint& joint) {
   const auto a = angles_of(r, joint.axes[0], joint.axes[1]), b = the_other(a);
@@ -150,12 +154,12 @@ double beyond_limits(const BodyTree& tree, std::span<const double> q, int i) {
   if (is_limb(tree.joint(i))) {
     const LimbPose at = limb_pose(tree, q, i);
     // Where a limb points straight back, all twists are one.
-    worst *= std::min(1.0, glm::length(at.rest + at.direction));
+    worst *= std::min(1.0, kNearOne * glm::length(at.rest + at.direction));
     for (const double beyond : beyond_swing(tree.segment(i), at.direction)) worst = std::max(worst, beyond);
   } else if (tree.joint(i).type == JointType::universal) {
-    // The nearer the second angle is to a quarter turn, the more of the third the first can do.
+    // At a quarter turn of the second angle the first does what the third does.
     const auto a = universal_angles(quat_of(tree, q, i), tree.joint(i));
-    worst = std::max(worst, std::abs(a[2] * std::cos(a[1])));
+    worst = std::max(worst, std::abs(a[2]) * std::min(1.0, kNearOne * std::abs(std::cos(a[1]))));
   }
   return worst;
 }
